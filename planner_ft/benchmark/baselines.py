@@ -107,9 +107,7 @@ def _majority(data: BenchData, training: BenchData) -> dict[str, Line]:
 
 
 def majority_plan(level: Level, samples: Sequence[Sample]) -> Plan:
-    """The first plan with the most frequent sequence of names; at each place the most frequent
-    parameters that stand there in such plans, the first of equals.
-    """
+    """The first plan of the most frequent names, each place with the most frequent parameters."""
     sequences = [
         tuple((step, role, entry.get("title") or entry["name"]) for step, role, entry in entries)
         for entries in (_entries(level, sample.expected) for sample in samples)
@@ -137,9 +135,7 @@ def _line(sample: Sample, plan: Plan) -> Line:
 
 
 class Index:
-    """Texts to look up by TF-IDF over words, pairs of words and characters within words, with the
-    weights of Salton and Buckley 1988 and smoothed idf.
-    """
+    """Texts by TF-IDF over words, pairs and pieces of words (Salton and Buckley 1988)."""
 
     def __init__(self, texts: Sequence[str]) -> None:
         from sklearn.feature_extraction.text import TfidfVectorizer

@@ -1,6 +1,4 @@
-"""A row taken apart: figures per name, role and type of parameter, which name stands for which,
-examples of failures.
-"""
+"""A row taken apart: by name, role and type of parameter, substitutions, examples of failures."""
 
 from __future__ import annotations
 

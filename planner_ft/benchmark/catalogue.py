@@ -1,6 +1,4 @@
-"""Every metric of results.json, read from catalogue.toml: how it is summed up from the values of
-samples (keys of scores.jsonl), and how tables show it.
-"""
+"""Every metric of results.json (catalogue.toml): how it is summed up and shown."""
 
 from __future__ import annotations
 

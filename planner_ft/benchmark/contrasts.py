@@ -39,9 +39,7 @@ RIGHT = "right"
 def contrasts(
     scores: Iterable[Mapping[str, Any]], baselines: Iterable[Mapping[str, Any]], seed: int
 ) -> dict[Question, list[Comparison]]:
-    """All comparisons from the lines of scores.jsonl and baselines.jsonl, adjusted after Holm
-    within each question.
-    """
+    """All comparisons from both files of scores, adjusted after Holm within each question."""
     rows, without_model = by_system(scores), by_system(baselines)
     everything = rows | without_model
     beside = [(first, second) for second in rows for first in without_model]
@@ -91,9 +89,7 @@ def _configurations(systems: Sequence[System]) -> list[tuple[System, System]]:
 
 
 def _with_best(rows: Mapping[System, Scores]) -> Wanted:
-    """Each candidate with the best one of the same configuration by each metric, the first of
-    equals.
-    """
+    """Each candidate with the best one of its configuration by each metric, the first of equals."""
     found: Wanted = []
     for configuration in dict.fromkeys(configuration for _candidate, configuration in rows):
         systems = [system for system in rows if system[1] == configuration]
@@ -109,9 +105,7 @@ def _with_best(rows: Mapping[System, Scores]) -> Wanted:
 
 
 def marks(found: Contrasts) -> dict[tuple[str, str], str]:
-    """Marks by (system, metric): the verdict on the configuration that the row is compared with,
-    and ★ for the best of a column and its equals.
-    """
+    """Marks by (system, metric): the verdict beside its reference; ★: best of its column."""
     marked = {(one.second, one.paired.metric): one.mark for one in found["configuration"]}
     best = {(one.first, one.paired.metric) for one in found["best"]}
     best |= {(one.second, one.paired.metric) for one in found["best"] if one.verdict in NOT_WORSE}

@@ -45,9 +45,7 @@ Line = dict[str, Any]
 
 
 def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
-    """Make the folder if need be. Raises PlannerError when it holds any of these files, cannot be
-    written, or is a file.
-    """
+    """Make the folder. Raises PlannerError when it cannot be used or holds any of these files."""
     if present := [name for name in names if (folder / name).exists()]:
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
     make_folder(folder)
@@ -122,9 +120,7 @@ def _is_record(record: Any) -> bool:
 
 
 def records_by_key(path: Path) -> dict[str, dict[str, Line]]:
-    """The records of a file by key and id; a last line without its end, which may be about to be
-    written, and other lines that are no records are passed over.
-    """
+    """A file's records by key and id; lines that are none, or not finished, are passed over."""
     found: dict[str, dict[str, Line]] = {}
     text = path.read_bytes() if path.is_file() else b""
     for line in text[: text.rfind(b"\n") + 1].splitlines():
@@ -150,9 +146,7 @@ class RunRecord:
 
 
 def begin_run(plan: Plan, predictions: RecordLog) -> None:
-    """Write run.json. Raises PlannerError when the folder holds a run that was made with something
-    else.
-    """
+    """Write run.json. Raises PlannerError when the folder holds a run of something else."""
     path, settings = plan.settings.folder / RUN, plan.settings
     before: dict[str, Any] = read_json(path) if path.is_file() else {}
     _check_jobs(plan, path, before.get("jobs", {}))
@@ -213,9 +207,7 @@ def read_run(folder: Path) -> RunRecord:
 def measured_in(
     folder: Path, record: RunRecord, names: Sequence[str] | None = None
 ) -> list[Measured]:
-    """The systems of a run, or of these jobs, with answers, timed queries, costs and lines of
-    planning.jsonl, read without locking.
-    """
+    """A run's systems, or those of these jobs, with all their lines, read without locking."""
     logs = [records_by_key(folder / name) for name in (PREDICTIONS, LATENCY)]
     planned, found = records_by_key(folder / PLANNING), []
     for name, system in record.systems.items():
@@ -230,9 +222,7 @@ def measured_in(
 
 
 def write_results(folder: Path, results: Results, more: dict[str, Any] | None = None) -> None:
-    """Write results.json (with `more` first), scores.jsonl and the tables; results.json last, so
-    that it is there only when all is.
-    """
+    """Write scores, tables and, last, results.json (`more` first): then all is there."""
     # A report of earlier results would be taken for one of these.
     (folder / REPORT).unlink(missing_ok=True)
     write_jsonl(folder / SCORES, results.scores)
@@ -243,9 +233,7 @@ def write_results(folder: Path, results: Results, more: dict[str, Any] | None = 
 
 
 def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
-    """The results of a run with its scores, where they are there, and results.json as it is. Raises
-    PlannerError for a folder without results and for damaged files.
-    """
+    """A run's results with scores, and results.json as it is. Raises PlannerError."""
     path = folder / RESULTS
     if not path.is_file():
         written = "`plannerft bench` or `plannerft score --out` has written to its end"

@@ -1,6 +1,4 @@
-"""The regression gate: a run whose figures must not fall short of thresholds; and what gate and
-suite files, TOML with the settings of runs, have in common.
-"""
+"""The regression gate, and what gate and suite files (TOML) have in common."""
 
 from __future__ import annotations
 
@@ -49,9 +47,7 @@ def key_problems(
 
 
 def run_settings(raw: Mapping[str, Any], here: Path, **given: Any) -> BenchSettings:
-    """The settings of a run that a file in the folder `here` describes; paths are relative to it.
-    Raises PlannerError.
-    """
+    """The run that a file in the folder `here`, its paths' base, describes. Raises PlannerError."""
     if raw.get("limit", 1) < 1:
         raise PlannerError(f"--limit {raw['limit']}: must be at least 1")
     vocabulary = raw.get("vocabulary", "usv")
@@ -93,9 +89,7 @@ class Gate:
 
 
 def load_gate(path: Path) -> Gate:
-    """Read a gate file; `data`, `adapter` and a vocabulary's path are relative to it. Raises
-    PlannerError that lists every mistake.
-    """
+    """Read a gate file; paths are relative to it. Raises PlannerError with every mistake."""
     raw, here = read_toml(path), path.parent
     if problems := key_problems(raw, KEYS, REQUIRED):
         raise PlannerError(f"{path}: {'; '.join(problems)}")
@@ -116,9 +110,7 @@ def load_gate(path: Path) -> Gate:
 def run_gate(
     gate: Gate, out: Path, progress: Progress, show: Callable[[Results], Any], **changes: Any
 ) -> Results:
-    """Run the gate's benchmark into `out`; `show` gets the results. Raises GateError when a figure
-    falls short of its threshold.
-    """
+    """Run the gate into `out`; `show` gets the results. Raises GateError for a low figure."""
     results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
     show(results)
     found = (threshold.shortfall(results) for threshold in gate.thresholds)

@@ -1,6 +1,4 @@
-"""The rows of the tables: measured, published (published/*.csv) and baselines, with the notes that
-belong to them; and how a terminal shows them.
-"""
+"""Rows of the tables: measured, published (published/*.csv), baselines; notes; in a terminal."""
 
 from __future__ import annotations
 
@@ -31,9 +29,7 @@ PERCENT = ("hallucination", "schema_valid")
 
 @functools.cache
 def published_rows(level: Level) -> tuple[Row, ...]:
-    """The rows of the published table of a level in its order, each model in both configurations;
-    rates are fractions.
-    """
+    """The published table of a level, each model in both configurations; rates are fractions."""
     with open(FOLDER / f"{level}.csv", encoding="utf-8", newline="") as stream:
         lines = list(csv.DictReader(stream))
     rows = []
@@ -180,9 +176,7 @@ def trained_on(one: Row) -> str:
 
 
 def print_results(results: Results, console: Console) -> None:
-    """Print, within 80 columns, the figures in the order of the published table, whether plans are
-    right, the published figures, and notes.
-    """
+    """Print within 80 columns: the published metrics, right plans, published figures, notes."""
     console.print(f"{results.level} level, n = {results.data['n']}", style="bold")
     found = lines(results)
     ours = [line for line in found if line.kind != "published"]

@@ -1,6 +1,4 @@
-"""Two systems on the same samples: the difference of a metric with its interval, how likely it is
-by chance, and what that means, in a word and in a mark.
-"""
+"""Two systems on the same samples: the difference of a metric, its chance, and the verdict."""
 
 from __future__ import annotations
 
@@ -73,9 +71,7 @@ class Paired:
 
 
 def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired:
-    """Compare two systems by a metric, over the samples for which both have a value. Repeats of a
-    sample are averaged first.
-    """
+    """Compare by a metric, over samples with a value in both; repeats are averaged first."""
     families, terms = [], []
     for name in (name for name in first if name in second):
         one, other = _terms(metric, first[name]), _terms(metric, second[name])
@@ -123,9 +119,7 @@ def _values(sums: Floats) -> tuple[Any, Any]:
 
 
 def exact_mcnemar(lost: int, won: int) -> float:
-    """Two-sided p of the exact McNemar test (1947): `lost` samples were right with the first system
-    alone, `won` with the second.
-    """
+    """Two-sided p of the exact McNemar test (1947): right by the first alone, by the second."""
     from statsmodels.stats.contingency_tables import mcnemar
 
     return float(mcnemar([[0, lost], [won, 0]], exact=True).pvalue)
@@ -180,9 +174,7 @@ def _random_swaps(count: int, seed: int) -> NDArray[np.int8]:
 
 
 def holm(values: Sequence[float | None]) -> list[float | None]:
-    """p-values adjusted for how many there are (Holm 1979). None stands for a comparison that could
-    not be made; it stays None and does not count.
-    """
+    """p-values adjusted after Holm 1979; None, for no comparison, stays and does not count."""
     known = [value for value in values if value is not None]
     if not known:
         return [None] * len(values)
@@ -194,7 +186,7 @@ def holm(values: Sequence[float | None]) -> list[float | None]:
 
 @dataclass(frozen=True)
 class Comparison:
-    """`second` against `first` by one metric; `p_adjusted` is Holm's, over all of the same table."""
+    """`second` against `first` by one metric; `p_adjusted` is Holm's over the same table."""
 
     first: str
     second: str
@@ -230,9 +222,7 @@ class Comparison:
 
 
 def verdict(name: str, difference: Estimate, p_adjusted: float | None) -> Verdict:
-    """A difference is real where p, adjusted for the table, is under 0.05; equal is a difference
-    that is known to be less than MARGIN. Everything else is not told apart.
-    """
+    """Real: adjusted p under 0.05; equal: known to differ by less than MARGIN; else unknown."""
     metric = METRIC.get(name)
     if difference.value is None or p_adjusted is None:
         return "not compared"

@@ -1,6 +1,4 @@
-"""Before anything is loaded: which candidates in which configurations, all checked, and everything
-that an answer depends on.
-"""
+"""Candidates in configurations, all checked before loading, and what an answer depends on."""
 
 from __future__ import annotations
 
@@ -40,9 +38,7 @@ Parts = dict[str, Any]
 
 @dataclass(frozen=True)
 class Job:
-    """One candidate in one configuration, one repeat of it where answers are sampled. `parts` is
-    everything that its answers depend on, by name.
-    """
+    """A candidate in a configuration, once per repeat; `parts` is all that answers depend on."""
 
     candidate: Candidate
     configuration: Configuration
@@ -69,9 +65,7 @@ class Job:
         return f"{self.system.key}{repeat}"
 
     def calibration(self) -> Calibration | None:
-        """What turns its log-probabilities into confidence, where it was calibrated. Raises
-        PlannerError for a damaged file.
-        """
+        """What turns its log-probabilities into confidence, if anything. Raises PlannerError."""
         folder = self.adapter or self.candidate.folder
         if folder is None or self.sampling is not None:
             return None
@@ -92,9 +86,7 @@ class Job:
         return {**names, **({"repeat": self.sampling.repeat} if self.sampling else {})}
 
     def repeated(self, settings: BenchSettings) -> list[Job]:
-        """The job once for every repeat, each with its own random numbers and its own key; the job
-        itself where decoding is greedy.
-        """
+        """The job once per repeat, with random numbers and a key of its own; greedy: itself."""
         temperature, top_p, seed = settings.temperature, settings.top_p, settings.seed
         if temperature == 0:
             return [self]
@@ -177,9 +169,7 @@ def _candidates(settings: BenchSettings) -> list[Candidate]:
 
 
 def _adapters(settings: BenchSettings, candidates: Sequence[Candidate]) -> dict[str, Path]:
-    """The adapter folder of each candidate: from --adapter, else the one that it has, else where
-    `plannerft train` would put it.
-    """
+    """Adapter folders: from --adapter, else the candidate's, else where `train` would write."""
     chosen: dict[str, Path] = {}
     for text in settings.adapters:
         name, separator, folder = text.partition("=")
@@ -212,9 +202,7 @@ def _check_limit(
     configurations: Sequence[Configuration],
     vocabulary: Vocabulary,
 ) -> None:
-    """Raise PlannerError where a constrained answer of a later candidate needs more tokens than the
-    limit; the first candidate's are checked when it is loaded.
-    """
+    """Raise PlannerError where a later candidate's constrained answers need more tokens."""
     strengths = [one.strength for one in configurations if one.strength != "free"]
     for candidate in candidates[1:] if strengths else ():
         tokenizer = loading.load_tokenizer(candidate)

@@ -18,9 +18,7 @@ NORTHS = (10, 60, -20, 95, -45, 130, -110, 55, 30, -75)
 
 
 def planning_command(tasks: int, variant: int) -> str:
-    """A command of so many tasks, to sail to places and to keep station there in turn; variants
-    differ in the places.
-    """
+    """A command to sail to places and keep station there in turn; variants differ in places."""
     steps = []
     for step in range(tasks):
         place = (step // 2 + variant) % len(EASTS)

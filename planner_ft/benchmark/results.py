@@ -1,6 +1,4 @@
-"""Results of a run: rows of metrics, made from answers and timed queries, or read from
-results.json.
-"""
+"""Results of a run: rows of metrics, made from answers and timed queries, or read again."""
 
 from __future__ import annotations
 
@@ -195,9 +193,7 @@ class Results:
 
     @functools.cached_property
     def contrasts(self) -> Contrasts:
-        """Differences between configurations, models, and everything and the baselines, paired by
-        sample.
-        """
+        """Differences of configurations, models, and all from the baselines, paired by sample."""
         if known := self.recorded.get("comparisons"):
             return {
                 key: [*map(Comparison.from_json, known.get(key, ()))] for key in get_args(Question)
@@ -247,9 +243,7 @@ def assemble(
     seed: int,
     manifest: Record,
 ) -> Results:
-    """Score every system on the samples of `data`, and the baselines; a sample without a prediction
-    counts as an empty output. Repeats of a system make one row.
-    """
+    """Score every system and the baselines; repeats of a system make one row."""
     systems: dict[str, list[Measured]] = {}
     for entry in measured:
         systems.setdefault(entry.system.key, []).append(entry)
@@ -279,7 +273,7 @@ def assemble(
 def score_system(
     data: BenchData, entries: Sequence[Measured], vocabulary: Vocabulary, seed: int
 ) -> tuple[Row, list[Record]]:
-    """The row of one system and its scores per answer, from what was measured once, or per repeat."""
+    """The row of one system, measured once or once per repeat, and its scores per answer."""
     asked = [(sample, one) for one in entries for sample in data.samples]
     scores = [
         score_sample(data.level, sample, answers.get(sample.id), vocabulary, timed.get(sample.id))

@@ -1,26 +1,28 @@
-"""Running the benchmark: answers and timed queries that are not there yet are made, then all are
-scored.
+"""Running the benchmark: answers and timed queries that are missing are made, then all scored;
+several processes may share a run, as `accelerate launch` or torchrun starts them.
 """
 
 from __future__ import annotations
 
 import contextlib
+import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import timedelta
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.folder import Line, RecordLog
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import time_planning
-from planner_ft.benchmark.ranks import ALONE, Ranks
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import AnswerSource, Fields, open_source
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.resources import end_with_parent
 from planner_ft.vocabulary.outputs import parse_output
 
 Progress = Callable[[str, int, int], None]
@@ -29,6 +31,64 @@ Progress = Callable[[str, int, int], None]
 
 def _silent(_label: str, _done: int, _total: int) -> None:
     pass
+
+
+Item = TypeVar("Item")
+LONGEST_WAIT = timedelta(days=14)
+"""For others that answer; one that fails ends them all through its launcher."""
+
+
+@dataclass(frozen=True)
+class Ranks:
+    """This process's place in a run. Rank 0 owns the folder; the others add answers."""
+
+    rank: int = 0
+    world: int = 1
+
+    @property
+    def leads(self) -> bool:
+        return self.rank == 0
+
+    def wait(self) -> None:
+        """Go on when every process has come here."""
+        if self.world > 1:
+            import torch.distributed
+
+            torch.distributed.barrier()
+
+    def share(self, items: Sequence[Item]) -> list[Item]:
+        """This process's part of the items that all share."""
+        return list(items[self.rank :: self.world])
+
+    def settings(self, settings: BenchSettings) -> BenchSettings:
+        """The settings of this process: a GPU of its own, where there are any."""
+        if self.world == 1 or settings.device not in ("auto", "cuda"):
+            return settings
+        import torch
+
+        if not torch.cuda.is_available():
+            return settings
+        local = int(os.environ.get("LOCAL_RANK", self.rank))
+        return replace(settings, device=f"cuda:{local % torch.cuda.device_count()}")
+
+
+def started_with_others() -> bool:
+    """Whether a launcher started several processes."""
+    return int(os.environ.get("WORLD_SIZE", "1")) > 1
+
+
+def join_ranks() -> Ranks:
+    """This process's place, after it has met the others; alone where there are none."""
+    if not started_with_others():
+        return Ranks()
+    import atexit
+
+    import torch.distributed
+
+    end_with_parent()
+    torch.distributed.init_process_group("gloo", timeout=LONGEST_WAIT)
+    atexit.register(torch.distributed.destroy_process_group)
+    return Ranks(torch.distributed.get_rank(), torch.distributed.get_world_size())
 
 
 @dataclass(frozen=True)
@@ -42,9 +102,7 @@ class _Run:
     latencies: RecordLog | None = None
 
     def candidate(self, jobs: list[Job]) -> None:
-        """Make this process's share of the missing answers of one candidate, and time queries; the
-        model is loaded once, and only if need be.
-        """
+        """Make this process's share of a candidate's answers; time queries; load it if need be."""
         every, settings = self.plan.data.samples, self.plan.settings
         timed = every[: settings.latency_samples] if self.latencies is not None else ()
         missing = [self.ranks.share(_without(every, self.predictions, job)) for job in jobs]
@@ -89,7 +147,7 @@ class _Run:
 
 
 def run_bench(
-    settings: BenchSettings, progress: Progress = _silent, ranks: Ranks = ALONE
+    settings: BenchSettings, progress: Progress = _silent, ranks: Ranks | None = None
 ) -> Results:
     """Benchmark every candidate in every configuration and write results.json and the tables into
     `settings.folder`.
@@ -98,7 +156,7 @@ def run_bench(
     With several processes this is for the first, and `help_bench` for the others. Raises
     PlannerError.
     """
-    out, goes_on = settings.folder, settings.resume or settings.overwrite
+    out, goes_on, ranks = settings.folder, settings.resume or settings.overwrite, ranks or Ranks()
     folder.check_folder(out, () if goes_on else folder.ALL, folder.GO_ON)
     plan = make_plan(ranks.settings(settings))
     started = time.time()
@@ -128,9 +186,7 @@ def run_bench(
 
 @contextlib.contextmanager
 def _nothing_left(out: Path) -> Iterator[None]:
-    """Remove the files of a run that failed before its first answer, such as in loading: the next
-    one would take them for results.
-    """
+    """Remove what a run that failed before its first answer left: it is no result."""
     try:
         yield
     except Exception:
@@ -141,9 +197,7 @@ def _nothing_left(out: Path) -> Iterator[None]:
 
 
 def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
-    """Make this process's share of the answers of a run that another process leads. Raises
-    PlannerError.
-    """
+    """Make this process's share of a run that another process leads. Raises PlannerError."""
     plan = make_plan(ranks.settings(settings))
     # The first process has refused or cleared the folder before anybody goes on.
     ranks.wait()

@@ -1,6 +1,4 @@
-"""Test data: any JSONL of `{"id", "prompt", "expected"}` records (task level: also `task` and
-`parameters`).
-"""
+"""Test data: JSONL of `{"id", "prompt", "expected"}` (tasks: also `task`, `parameters`)."""
 
 from __future__ import annotations
 
@@ -45,7 +43,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class BenchData:
-    """The samples of a file, of which a limit may have kept the first; `ids` are all of the file."""
+    """The samples of a file, or the first up to a limit; `ids` are all of the file."""
 
     path: Path
     sha256: str
@@ -90,9 +88,7 @@ def joined(problems: list[str]) -> str:
 
 
 def _problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """Reasons why a line is no test sample of this level: entries without a readable name would be
-    missing from the score, names outside the vocabulary can never be met.
-    """
+    """Reasons why a line is no test sample: entries without a name would miss in the score."""
     if not isinstance(record, dict):
         yield f"a JSON object is expected, not {type(record).__name__}"
         return

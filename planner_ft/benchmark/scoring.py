@@ -32,9 +32,7 @@ UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
 
 @dataclass(frozen=True)
 class Answer:
-    """A sample with the plan that was answered, None when the output is not one JSON object, and
-    what several metrics need, computed once.
-    """
+    """A sample with the plan that was answered, if any, and what several metrics need."""
 
     level: Level
     sample: Sample
@@ -100,9 +98,7 @@ def score_sample(
     vocabulary: Vocabulary,
     timed: Mapping[str, Any] | None = None,
 ) -> SampleScore:
-    """Score one prediction (`output`, and `tokens` where they are known); None counts as an empty
-    output. `timed` is the sample's timed query.
-    """
+    """Score one prediction (None: an empty output) with the sample's timed query, if any."""
     prediction, timed = prediction or {}, timed or {}
     answer = Answer(level, sample, parse_output(prediction.get("output")).plan, vocabulary)
     judged, valid = (level, answer.plan, answer.expected, vocabulary), answer.schema_valid
@@ -184,7 +180,7 @@ def _names(answer: Answer) -> Values:
 
 
 def _parameters(found: Parameters) -> Values:
-    """Parameters of aligned entries: all right, keys and key-value pairs, also of the whole plan."""
+    """Parameters of aligned entries: all right, keys, key-value pairs; of the whole plan, too."""
     values: Values = {"parameters_right": found.right, "parameters_matched": found.matched}
     for name in ("keys", "values", "keys_overall", "values_overall"):
         values |= _pooled(f"parameter_{name}", getattr(found, name))

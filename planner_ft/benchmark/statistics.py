@@ -1,6 +1,4 @@
-"""Intervals: Wilson for rates, seeded bootstrap for means; phrasings of one family are not counted
-as independent in either.
-"""
+"""Intervals: Wilson for rates, seeded bootstrap for means; families are not independent samples."""
 
 from __future__ import annotations
 
@@ -25,9 +23,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Estimate:
-    """A figure with its 95 % interval; `value` is None where there is nothing to measure, the
-    bounds where too little.
-    """
+    """A figure with its 95 % interval; None: nothing to measure, or too little for a bound."""
 
     value: float | None
     low: float | None = None
@@ -146,9 +142,7 @@ def cluster_sums(
 
 
 def resampled_sums(sums: Floats, seed: int) -> Floats:
-    """The totals of RESAMPLES resamples of the clusters, (RESAMPLES, columns); a seed draws the
-    same clusters for every metric.
-    """
+    """Totals of RESAMPLES resamples, (RESAMPLES, columns); a seed draws the same clusters."""
     return in_blocks(_drawn(len(sums), seed), sums)
 
 

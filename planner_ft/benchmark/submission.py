@@ -48,9 +48,7 @@ def score_predictions(
 
 
 def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
-    """Score the answers in a run folder again, with the data that they were made for, at
-    `data_path` if it was moved; no model is needed. Raises PlannerError when it is other data.
-    """
+    """Score a run again, its data at `data_path` if moved. Raises PlannerError: other data."""
     record = read_run(folder)
     settings = record.settings
     vocabulary = load_vocabulary(settings["vocabulary"])

@@ -29,9 +29,7 @@ Term = tuple[float, float, str]
 
 
 def summarise(scores: Scores, seed: int, names: Iterable[str] = METRIC) -> dict[str, Estimate]:
-    """Every metric, or those named, over the scored samples, 95 %, families counted as such: Wilson
-    intervals for rates, bootstrap for the others.
-    """
+    """Metrics over samples, 95 %, families as such: Wilson for rates, bootstrap for others."""
     return {name: _estimate(METRIC[name], _terms(METRIC[name], scores), seed) for name in names}
 
 
@@ -67,9 +65,7 @@ def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> Estimate:
 def worst_cases(
     values: Sequence[float], samples: Sequence[str], families: Sequence[str]
 ) -> dict[str, float]:
-    """The smallest value of each family with at least two samples (ids); for truths, whether all
-    are true. Of a sample that was answered several times every answer counts.
-    """
+    """The smallest value of each family with two or more samples (ids), of all their answers."""
     members: dict[str, list[tuple[str, float]]] = defaultdict(list)
     for value, sample, family in zip(values, samples, families, strict=True):
         members[family].append((sample, value))
@@ -78,9 +74,7 @@ def worst_cases(
 
 
 def group_figures(scores: Sequence[Figures]) -> list[Figures]:
-    """Per candidate, configuration and group of the data: `n` and means without interval (groups
-    are small). Empty where no sample has a group.
-    """
+    """`n` and means per candidate, configuration and group of the data, where it has any."""
     found: dict[tuple[str, str, str], list[Figures]] = {}
     for score in scores:
         if score.get("group"):
@@ -167,9 +161,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _planning_times(lines: Sequence[Mapping[str, Any]], seed: int) -> list[Figures]:
-    """Seconds to plan a mission with both agents, by the number of tasks that were planned, and the
-    mean seconds of either agent. A plan that is not valid has no number of tasks and is left out.
-    """
+    """Seconds to plan by number of tasks planned, and each agent's; no invalid plans."""
     by_tasks: dict[int, list[Mapping[str, Any]]] = {}
     for line in lines:
         if line.get("tasks"):

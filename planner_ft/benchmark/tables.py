@@ -135,9 +135,7 @@ def _failures(results: Results) -> Table:
 
 
 def names_tables(rows: Sequence[Row]) -> Iterator[Table]:
-    """F1 of each role and name with its interval, and its support: the occurrences expected. All
-    names that were predicted and nowhere expected are in results.json.
-    """
+    """F1 of roles and names, and how often each was expected; all others are in results.json."""
     for part, key in (("per_role", "role"), ("per_name", "name")):
         figures = [{line[key]: line for line in one.breakdown.get(part, ())} for one in rows]
         support = {

@@ -34,9 +34,7 @@ class FileTokenizer:
 
     @classmethod
     def read(cls, folder: Path) -> FileTokenizer | None:
-        """The tokenizer of a folder; None where transformers has to load it. Raises PlannerError
-        for a corrupt one.
-        """
+        """A folder's tokenizer, None where transformers must load it. Raises PlannerError."""
         from tokenizers import Tokenizer
 
         settings = read_config(folder, "tokenizer_config.json")

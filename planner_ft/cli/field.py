@@ -24,9 +24,7 @@ PLACE = (100.0, 50.0)
 def run_whole(
     cases: list[Path] | None, out: Path | None, named: dict[str, Any], *, overwrite: bool
 ) -> None:
-    """Run field cases, or without `cases` the demands of --data, with every candidate in every
-    configuration; print the table.
-    """
+    """Run field cases, or without `cases` the demands of --data; print the table."""
     also = () if cases is not None else ("level", "data")
     if extra := [name for name in named if name not in (*FLAGS, *also)]:
         flag = "--level both" if also else "--field"

@@ -1,17 +1,20 @@
-"""`plannerft train`."""
+"""`plannerft train`, `learning-curve` and `calibrate`."""
 
 from __future__ import annotations
 
 import inspect
 import shlex
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from planner_ft.cli.options import command, set_parameters
-from planner_ft.cli.progress import resume_command
-from planner_ft.support.terminal import terminal
+from planner_ft.cli.options import command, given, set_parameters
+from planner_ft.cli.progress import interruptible, resume_command, status
+from planner_ft.support.alone import alone
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import show, terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 from planner_ft.vocabulary.definition import DEFAULT
 
@@ -20,9 +23,7 @@ if TYPE_CHECKING:
 
 
 def with_settings(*without: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """An option for every training setting `without` some, so that flags, recipes and settings
-    cannot differ.
-    """
+    """An option for every training setting `without` some: flags and settings cannot differ."""
 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
         own, kind = inspect.signature(function).parameters.values(), inspect.Parameter.KEYWORD_ONLY
@@ -140,3 +141,90 @@ def _preview(request: Any, sample_id: str | None, console: Console) -> None:
     console.print(preview_text(sample, tokenizer))
     trained = f"{sample.completion_length} of them trained (between ⟦ and ⟧)"
     console.print(f"{sample.id}: {sample.length} tokens, {trained}", markup=False)
+
+
+NAMED = ("level", "candidate", "vocabulary", "data_dir")
+
+
+@with_settings("seed", "max_samples", "keep_checkpoints")
+@command
+def learning_curve(
+    level: str | None = None,
+    candidate: str | None = None,
+    sizes: str | None = None,
+    seeds: int = 3,
+    strength: str = "schema",
+    vocabulary: str | None = None,
+    data_dir: str | None = None,
+    data: Path | None = None,
+    limit: int | None = None,
+    out: Path = Path("eval/runs/learning-curve"),
+    resume: bool = False,
+    overwrite: bool = False,
+    **settings: Any,
+) -> None:
+    """Train on growing parts of the training set and benchmark each."""
+    from planner_ft.benchmark.curve.points import SAMPLES, write_curve
+    from planner_ft.benchmark.curve.units import begin, prepare, run_units
+    from planner_ft.report.pictures import write_figure
+    from planner_ft.training.request import build_request
+
+    if resume and overwrite:
+        raise PlannerError("--overwrite and --resume exclude each other")
+    flags = given(settings, *settings)
+    request = build_request(given(locals(), *NAMED), flags)
+    curve = prepare(request, out, _sizes(sizes), seeds, strength, data, limit, flags)
+    with alone(out, "--out", "a learning curve"):
+        begin(curve, resume=resume, overwrite=overwrite)
+        with status(lambda: f"go on with: {resume_command()}") as state:
+            run_units(curve, state)
+            state(0, "tables and figure")
+            write_figure(write_curve(curve), SAMPLES[request.level], out)
+    show((out / "table.md").read_text(encoding="utf-8"))
+    show(
+        f"{out}/: table.md, table.csv, learning_curve.json, learning-curve.png, learning-curve.svg"
+    )
+
+
+def _sizes(text: str | None) -> tuple[int, ...] | None:
+    try:
+        return None if text is None else tuple(int(part) for part in text.split(","))
+    except ValueError:
+        raise PlannerError(f"--sizes {text}: must be numbers such as 0,8,16") from None
+
+
+SHOWN = {"plan": "plans", "entry": "tasks or skills", "value": "values"}
+
+
+@command
+def calibrate(
+    data: list[Path],
+    level: str = "mission",
+    candidate: str = "embedded",
+    configuration: str | None = None,
+    adapter: Path | None = None,
+    vocabulary: str = "usv",
+    device: str = "auto",
+    quantization: str | None = None,
+    out: Path = Path("eval/runs/calibration"),
+) -> None:
+    """Calibrate a candidate's confidence."""
+    from planner_ft.benchmark.calibrate import calibrate as run
+    from planner_ft.vocabulary.plans import check_level
+
+    checked = check_level(level)
+    named = {
+        "candidate": candidate,
+        "vocabulary": vocabulary,
+        "device": device,
+        "quantization": quantization,
+        f"{checked}_configuration": configuration,
+        f"{checked}_adapter": adapter,
+    }
+    with alone(out, "--out", "a calibration"), interruptible() as report:
+        path, manifest = run(checked, data, out, report, **named)
+    for kind, found in manifest["held_out"].items():
+        right = f"{found['n'] - found['wrong']} of {found['n']} {SHOWN[kind]} right"
+        area = f"area under risk-coverage {found['aurc']:.4f}, random {found['aurc_random']:.4f}"
+        show(f"{right}; calibration error {found['ece']:.3f}; {area}")
+    show(f"{path}: how sure the {checked} agent is, of these weights")

@@ -63,9 +63,7 @@ class TokenTable:
 
 
 def token_table(path: Path, size: int) -> TokenTable:
-    """The table of a tokenizer.json for a model with `size` tokens. Raises PlannerError when it is
-    no byte-level BPE.
-    """
+    """The table for a model of `size` tokens. Raises PlannerError for no byte-level BPE."""
     settings = read_json(path)
     model, step = settings.get("model", {}), settings.get("pre_tokenizer") or {}
     steps = list(step["pretokenizers"]) if step.get("type") == "Sequence" else [step]

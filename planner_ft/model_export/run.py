@@ -42,9 +42,7 @@ class Exported:
 
 
 def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
-    """Write a candidate, with its adapter folded in, as a model folder and a GGUF file; nothing is
-    written when its answers change. Raises PlannerError.
-    """
+    """Write a model folder and a GGUF file, nothing when answers change. Raises PlannerError."""
     out = settings.out.resolve()
     with alone(settings.out, "--out", "an export"):
         work = _Work(settings, say)

@@ -59,9 +59,7 @@ class Run:
 
 @dataclass(frozen=True)
 class TestSet:
-    """Systems measured on the same data, in the rows of `results`, each with a name of its own;
-    `samples` is empty where the data is gone.
-    """
+    """Systems on the same data, each with a name of its own; without `samples` if it is gone."""
 
     __test__ = False
 

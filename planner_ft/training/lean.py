@@ -38,10 +38,10 @@ def lean_states(model: Any, input_ids: Tensor, positions: Tensor | None) -> Tens
         attention, feed = layer.self_attn, layer.mlp
         mixed = _project(_norm(states, layer.input_layernorm), attention, "q_proj k_proj v_proj")
         mixed = mixed.view(rows, width, 3, -1, attention.head_dim)
-        found = _Attention.apply(mixed, cosine, sine, hidden, attention.scaling)  # type: ignore[no-untyped-call]
+        found = _applied(_Attention, mixed, cosine, sine, hidden, attention.scaling)
         states = states + _project(found, attention, "o_proj")
         opened = _project(_norm(states, layer.post_attention_layernorm), feed, "gate_proj up_proj")
-        states = states + _project(_Gated.apply(opened), feed, "down_proj")  # type: ignore[no-untyped-call]
+        states = states + _project(_applied(_Gated, opened), feed, "down_proj")
     return _norm(states, body.norm).view(rows, width, -1)
 
 
@@ -85,8 +85,7 @@ def _project(inputs: Tensor, part: nn.Module, names: str) -> Tensor:
     drop = first.lora_dropout["default"]
     share = drop.p if isinstance(drop, nn.Dropout) and first.training else 0.0
     pairs = [one[key].weight for m in modules for one in (m.lora_A, m.lora_B) for key in one]
-    projected: Tensor = _Projection.apply(inputs, weight, first.scaling["default"], share, *pairs)  # type: ignore[no-untyped-call]
-    return projected
+    return _applied(_Projection, inputs, weight, first.scaling["default"], share, *pairs)
 
 
 def _joined(part: Any, names: str, modules: Sequence[Any]) -> Tensor:
@@ -106,8 +105,13 @@ def _hidden(positions: Tensor) -> Tensor:
 
 
 def _norm(states: Tensor, norm: Any) -> Tensor:
-    normalised: Tensor = _Norm.apply(states, norm.weight.detach(), norm.variance_epsilon)  # type: ignore[no-untyped-call]
-    return normalised
+    return _applied(_Norm, states, norm.weight.detach(), norm.variance_epsilon)
+
+
+def _applied(function: Any, *values: Any) -> Tensor:
+    """`function.apply`, which torch gives no type."""
+    found: Tensor = function.apply(*values)
+    return found
 
 
 class _Norm(torch.autograd.Function):

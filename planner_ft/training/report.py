@@ -121,9 +121,7 @@ def tracker_problems(settings: TrainSettings) -> list[str]:
 
 
 def plot_losses(records: list[Record], folder: Path, title: str) -> None:
-    """Write `loss.png` and `loss.svg`: training loss a step, its mean over the last thirtieth of
-    all steps, and validation loss.
-    """
+    """Write `loss.png` and `loss.svg`: training loss, its running mean, validation loss."""
     from matplotlib.figure import Figure
 
     steps = [record for record in records if "loss" in record]

@@ -166,7 +166,7 @@ def with_corrections(
 
 
 def contradictions(split: Split, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """Records of the same input with different plans; how a task prompt is worded is no difference."""
+    """Records of the same input with different plans, however a task prompt is worded."""
     first: dict[str, Record] = {}
     for record, digest in zip(split.records, digests(split, level, vocabulary), strict=True):
         known = first.setdefault(digest, record)

@@ -92,7 +92,7 @@ def test_an_adapter_of_a_stand_in_does_not_fit_the_real_candidate(
 def test_an_adapter_of_other_weights_of_the_same_name_is_refused(
     adapter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from planner_ft.candidates.standins import make_standin
+    from scripts.make_standins import make_standin
 
     make_standin("Llama-3.2-1B", tmp_path, seed=1)
     monkeypatch.setenv("PLANNERFT_MODELS", str(tmp_path))

@@ -8,7 +8,7 @@ import io
 from rich.console import Console
 
 from planner_ft.report.charts import number
-from planner_ft.report.page import templates
+from planner_ft.report.write import templates
 from planner_ft.support.tables import (
     Cell,
     Table,

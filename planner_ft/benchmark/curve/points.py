@@ -27,9 +27,7 @@ SAMPLES: dict[Level, str] = {"mission": "commands", "task": "task inputs"}
 
 @dataclass(frozen=True)
 class Point:
-    """One size over the answers of all its adapters: figures, the values of each adapter
-    (`by_seed`), and the lines of scores.jsonl by sample id.
-    """
+    """Figures of one size, each adapter's values (`by_seed`), scores by sample id."""
 
     size: int
     metrics: dict[str, Estimate]
@@ -78,8 +76,8 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
     step, tests = f"from {before} to {last} {what}", len(found[-1].scores)
     if better := [one for one in final if one.verdict == "better"]:
         return (
-            f"Still rising: {step} brought {'; '.join(map(_gain, better))}. {last - before} more are"
-            " worth writing: they bring about as much if the curve goes on as it is, and less if it"
+            f"Still rising: {step} brought {'; '.join(map(_gain, better))}. {last - before} more"
+            " are worth writing: they bring about as much if the curve goes on as it is, and less if it"
             " flattens."
         )
     if any(one.verdict == "worse" for one in final):

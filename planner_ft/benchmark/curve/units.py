@@ -32,7 +32,7 @@ TESTED = 4
 
 @dataclass(frozen=True)
 class Unit:
-    """Training on `size` samples with a seed (none for size 0), and the benchmark of the adapter."""
+    """Training on `size` samples (0: none) with a seed, and the benchmark of the adapter."""
 
     size: int
     seed: int
@@ -44,7 +44,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class Curve:
-    """`request` is the training on the whole set, `settings` the flags of `train` that were given."""
+    """`request` is the training on the whole set, `settings` the flags of `train` given."""
 
     request: TrainRequest
     train: Split
@@ -86,9 +86,7 @@ def prepare(
     limit: int | None = None,
     settings: dict[str, Any] | None = None,
 ) -> Curve:
-    """A curve, checked before anything runs; without `sizes` 0, 8, 16, ... and the whole training
-    set. Raises PlannerError.
-    """
+    """A checked curve; without `sizes` 0, 8, 16, ... and the whole set. Raises PlannerError."""
     vocabulary, problems = request.vocabulary, list[str]()
     require_folder(request.candidate)
     train = read_split(request.train_file, request.level, vocabulary, problems)
@@ -112,7 +110,7 @@ def prepare(
 
 
 def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
-    """Take the folder; whoever calls holds it. Raises PlannerError, also for another curve there."""
+    """Take the folder that the caller holds. Raises PlannerError, also for another curve."""
     out, asked = curve.out, curve.asked()
     folder.check_folder(out, () if resume or overwrite else (BEGUN,), folder.GO_ON)
     if overwrite and (out / BEGUN).is_file():

@@ -1,6 +1,4 @@
-"""Running cases through planners, and how many come out right: by kind of field case, and by the
-data that commands demand from the command to the skills.
-"""
+"""Cases run through planners: right ones by kind of case, and by the data that is demanded."""
 
 from __future__ import annotations
 

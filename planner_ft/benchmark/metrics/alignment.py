@@ -26,9 +26,7 @@ COMPANY, NEARNESS = 1e-2, 1e-4
 
 @dataclass(frozen=True)
 class Entry:
-    """A named task or skill; `step` is the index of its task or step, `stated` whether the plan
-    gives it parameters at all.
-    """
+    """A task or skill; `step`: index of its task or step; `stated`: parameters are given."""
 
     name: str
     role: str
@@ -193,9 +191,7 @@ def replaced(alignment: Alignment) -> dict[int, int]:
 
 
 def substitutions(alignment: Alignment) -> list[Substitution]:
-    """Names that stand for others; None for the predicted name of what was omitted, and for the
-    expected name of what was added.
-    """
+    """Names that stand for others; None for what was omitted (predicted), added (expected)."""
     pairs = replaced(alignment)
     given = [entry.name for entry in alignment.predicted]
     named: list[Substitution] = [

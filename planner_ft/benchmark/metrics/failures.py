@@ -1,6 +1,4 @@
-"""Whether an answer is right as a whole, and the kind of failure of a wrong one, as the published
-robustness analysis classified them.
-"""
+"""Is an answer right as a whole, and how is a wrong one wrong (the published failure kinds)?"""
 
 from __future__ import annotations
 
@@ -34,16 +32,12 @@ Step = tuple[Entry, ...]
 
 
 def schema_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer parsed and has the structure of a plan of this level
-    (`schemas/LEVEL.schema.json`). The published definition: an invented name can be schema-valid.
-    """
+    """Whether an answer has a plan's structure, as published (LEVEL.schema.json)."""
     return plan is not None and not plan_problems(level, plan, vocabulary, strict=False)
 
 
 def strict_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer is schema-valid and every name, role, parameter name, type and range is of
-    the vocabulary (`schemas/LEVEL.strict.schema.json`).
-    """
+    """Whether names, roles, types and ranges are the vocabulary's (LEVEL.strict.schema.json)."""
     return plan is not None and not plan_problems(level, plan, vocabulary, strict=True)
 
 
@@ -113,9 +107,7 @@ def failure_kind(
 def whole_plan_unordered(
     level: Level, plan: Plan | None, expected: Plan, vocabulary: Vocabulary
 ) -> bool:
-    """Whether a schema-valid answer has the right tasks, or steps, with the right parameters, in
-    any order; skills that run in one step must stand in one step.
-    """
+    """Whether a valid answer has the right tasks, or whole steps, as expected, in any order."""
     if plan is None or not schema_valid(level, plan, vocabulary):
         return False
     if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):

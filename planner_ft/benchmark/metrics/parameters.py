@@ -14,7 +14,8 @@ from planner_ft.vocabulary.plans import Level
 
 class Parameters(NamedTuple):
     """Of the expected entries that the answer has, too (`matched`), how many have exactly the
-    expected parameters (`right`): every key, every value in the form that the vehicle reads. Expected entries without a `parameters` object are not compared.
+    expected parameters (`right`): every key, every value in the form that the vehicle reads. What
+    is expected without a `parameters` object is not compared.
 
     Keys, and key-value pairs, that are right, predicted and expected, in aligned entries and in the
     whole plan, with the keys of missing and extra entries; values agree by their content there ("5

@@ -37,9 +37,7 @@ PROBE_SCHEMA |= {"required": ["probe"], "additionalProperties": False}
 
 
 class EndpointSource:
-    """A server. Opening asks it what it serves, which fields it takes and, if a job needs it,
-    whether it can hold answers to a schema. Raises PlannerError.
-    """
+    """A server; opening asks what it serves and heeds. Raises PlannerError."""
 
     def __init__(self, plan: Plan, jobs: Sequence[Job], endpoint: EndpointSettings) -> None:
         started = time.perf_counter()
@@ -91,7 +89,7 @@ class EndpointSource:
         self.client.close()
 
     def request(self, job: Job, sample: Sample) -> dict[str, Any]:
-        """The body of a request: greedy, or sampled for a repeat; messages as candidates get here."""
+        """The body of a request, greedy or sampled, with the messages that candidates get."""
         level, vocabulary = self.plan.settings.level, self.plan.vocabulary
         told = job.with_vocabulary
         messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=told)
@@ -166,9 +164,7 @@ class EndpointSource:
         return found is not None and found.choices is not None
 
     def _tried(self, body: dict[str, Any]) -> Reply | None:
-        """The answer to a request with a field that the server may not know, None where it fails:
-        some answer even that with HTTP 500.
-        """
+        """The answer to a request that the server may not know, None: some say HTTP 500."""
         try:
             return self.client.complete(body, retries=1)
         except (PlannerError, Unanswerable):

@@ -1,6 +1,4 @@
-"""`plannerft bench --suite`: run missing units, then write a folder per data set, scored again from
-the answers that are there, and one overview of all.
-"""
+"""`plannerft bench --suite`: run missing units, score all answers again, write an overview."""
 
 from __future__ import annotations
 
@@ -68,9 +66,7 @@ def run_suite(
 
 
 def combine(session: Session) -> tuple[list[PartResults], dict[str, Any]]:
-    """The results of every part, and one manifest for all: the suite file, every data set, and what
-    each unit was run with and took.
-    """
+    """The results of every part, and one manifest: all files, what units ran with and took."""
     records = {
         unit.name: read_run(unit.settings.folder)
         for unit in session.units
@@ -145,9 +141,7 @@ def _part(
 
 
 def _write(out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]) -> None:
-    """Write PART/ and the overview of all parts into `out`; results.json last, so that it is there
-    only when all is.
-    """
+    """Write PART/ and the overview into `out`, results.json last: then all is there."""
     for one in parts:
         where = out / one.part.name
         where.mkdir(parents=True, exist_ok=True)
@@ -206,9 +200,7 @@ def _not_measured(name: str, one: PartResults) -> str:
 
 
 def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
-    """A line per data set, candidate and configuration with every metric; rates are fractions.
-    Failed ones have a reason and no figures.
-    """
+    """A line per data set, candidate and configuration with every metric, or why it failed."""
     heads = ["data", "level", "apart", "n", "model", "candidate", "configuration", "status"]
     figures = [f"{name}{end}" for name in METRICS for end in ("", "_low", "_high")]
     yield [*heads, "reason", *figures]

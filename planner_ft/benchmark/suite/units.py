@@ -58,9 +58,7 @@ class Unit:
 
 
 def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Unit]:
-    """Every candidate on every data set, a candidate's after one another; `changes` are settings of
-    the command line. Raises PlannerError for problems that no run could start with.
-    """
+    """Every candidate on every data set, with the command line's `changes`. Raises PlannerError."""
     parts: list[tuple[Part, BenchData]] = []
     for part in suite.parts:
         limits = (part.settings.limit, changes.get("limit"))
@@ -111,9 +109,7 @@ def fingerprint(plan: Plan) -> dict[str, Any]:
 
 
 class Process:
-    """The process of a unit, ended with its parent and with the `with` block, which is all that
-    Ctrl-C does to it; its output is kept in a log.
-    """
+    """A unit's process, ended with its parent and the `with` block, its output in a log."""
 
     def __init__(self, arguments: list[str], log: Path, processes: int = 1) -> None:
         self.log = log
