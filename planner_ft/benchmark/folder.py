@@ -27,6 +27,7 @@ from planner_ft.support.files import (
     write_json,
     write_jsonl,
     write_text,
+    writing,
 )
 from planner_ft.vocabulary.plans import check_level
 
@@ -66,12 +67,9 @@ class RecordLog:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        try:
+        with writing(path, "give another --out"):
             # Unbuffered: after a failed write nothing is left to be written again at closing.
             self.stream: IO[bytes] = open(path, "a+b", buffering=0)  # noqa: SIM115
-        except OSError as error:
-            reason = f"cannot be written ({error.strerror}); give another --out"
-            raise PlannerError(f"{path}: {reason}") from None
         self.stream.seek(0)
         self.stream.truncate(self.stream.read().rfind(b"\n") + 1)
         self.stream.seek(0, os.SEEK_END)
@@ -96,14 +94,10 @@ class RecordLog:
     def append(self, record: Line) -> None:
         """Write a record as one line, whole, at the end of the file."""
         self.records[record["key"], record["id"]] = record
-        try:
+        with writing(self.path, "free some space and run the command again with --resume"):
             line = f"{compact_json(record)}\n".encode()
             while line:
                 line = line[self.stream.write(line) :]
-        except OSError as error:
-            way = "free some space and run the command again with --resume"
-            problem = f"cannot be written ({error.strerror}); {way}"
-            raise PlannerError(f"{self.path}: {problem}") from error
 
     def close(self) -> None:
         self.stream.close()

@@ -51,10 +51,8 @@ Found = dict[str, Any]
 
 
 def describe(candidate: Candidate) -> Found:
-    """One row of `plannerft candidates` as JSON values.
-
-    `memory` is in GiB, None where the dimensions are unknown. `here` is true when the files are
-    complete; else `problem` or `get` says the way out, and `command` downloads it.
+    """One row of `plannerft candidates` as JSON values: `memory` in GiB, None if unknown; where it
+    is not `here`, complete, `problem` or `get` says the way out, and `command` downloads it.
     """
     missing, problem = candidate.folder is None, None
     try:
@@ -130,10 +128,8 @@ def _libraries(warnings: list[str]) -> Found:
     if missing:
         warnings.append(f"not installed: {', '.join(missing)}; run `pip install -e .` again")
     if importlib.util.find_spec("kernels"):
-        warnings.append(
-            "the package `kernels` is installed: bitsandbytes then fetches compiled code from the"
-            " hub when it is imported; uninstall it to prevent that"
-        )
+        what = "bitsandbytes then fetches compiled code from the hub when it is imported"
+        warnings.append(f"the package `kernels` is installed: {what}; uninstall it to prevent that")
     return dict(versions)
 
 
@@ -173,10 +169,11 @@ def _devices(warnings: list[str]) -> Found:
         found[f"cuda:{index}"] = f"{capability}, {free:.1f} of {total:.1f} GiB free"
     driver = shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
     if driver and not torch.cuda.is_available():
-        warnings.append(
-            f"there is an NVIDIA driver, but torch {torch.__version__} finds no CUDA device;"
-            " install a CUDA build of torch (https://pytorch.org/get-started)"
+        found_none = (
+            f"there is an NVIDIA driver, but torch {torch.__version__} finds no CUDA device"
         )
+        way = "install a CUDA build of torch (https://pytorch.org/get-started)"
+        warnings.append(f"{found_none}; {way}")
     return found
 
 
@@ -195,10 +192,8 @@ def _four_bit(warnings: list[str]) -> Found:
 
 
 def probe_four_bit(device: str = "auto") -> Found:
-    """Quantise a layer to NF4, multiply with it and take a gradient through it.
-
-    Errors are relative norms; `packs`: layers pack for decoding (AVX512-BF16 CPUs); `problem` is
-    None if all is well.
+    """Quantise a layer to NF4, multiply with it and take a gradient through it: errors as relative
+    norms, whether layers pack for decoding (AVX512-BF16 CPUs), and the problem or None.
     """
     target = resolve_device(device)
     dtype = compute_dtype(target)

@@ -1,7 +1,4 @@
-"""Where a candidate's files lie on this machine, and whether they are complete and safe to load.
-
-Never downloads.
-"""
+"""Where a candidate's files lie here, complete and safe to load or not. Never downloads."""
 
 from __future__ import annotations
 
@@ -91,10 +88,9 @@ def weight_files(folder: Path) -> list[Path]:
     shards = sorted(set(read_json(index).get("weight_map", {}).values()))
     missing = [name for name in shards if not (folder / name).is_file()]
     if missing or not shards:
-        raise PlannerError(
-            f"{folder}: {len(missing)} of {len(shards)} weight files are missing"
-            f" ({', '.join(missing[:2])} ...); finish the download"
-        )
+        lack = f"{len(missing)} of {len(shards)} weight files are missing"
+        names = f"({', '.join(missing[:2])} ...)"
+        raise PlannerError(f"{folder}: {lack} {names}; finish the download")
     return [folder / name for name in shards]
 
 
@@ -104,14 +100,14 @@ def safe_weights(folder: Path, name: str) -> Path:
         return folder / name
     pickled = sorted(path for pattern in PICKLED for path in folder.glob(pattern))
     if pickled:
-        raise PlannerError(
-            f"{folder}: only pickled weights ({pickled[0].name}), which are never loaded because"
-            f" they can run code; get or save them as {name}"
+        why = (
+            f"only pickled weights ({pickled[0].name}), which are never loaded because they can run"
         )
-    raise PlannerError(
-        f"{folder}: no {name}; finish the download or training that writes it, or give the folder"
-        " that holds the weights"
+        raise PlannerError(f"{folder}: {why} code; get or save them as {name}")
+    way = (
+        "finish the download or training that writes it, or give the folder that holds the weights"
     )
+    raise PlannerError(f"{folder}: no {name}; {way}")
 
 
 def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
@@ -123,10 +119,8 @@ def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
             names = list(tensors.keys())
             return {name: tuple(tensors.get_slice(name).get_shape()) for name in names}
     except (SafetensorError, OSError, ValueError) as error:
-        reason = str(error).splitlines()[0]
-        raise PlannerError(
-            f"{path}: corrupt or no safetensors file ({reason}); download it again"
-        ) from None
+        why = f"corrupt or no safetensors file ({str(error).splitlines()[0]})"
+        raise PlannerError(f"{path}: {why}; download it again") from None
 
 
 def weights_sha256(folder: Path) -> str:

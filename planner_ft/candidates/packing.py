@@ -36,10 +36,8 @@ def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
     allowing = 0
     for name, layer in linear_4bit(model):
         if not allowed and is_packed(layer):
-            raise PlannerError(
-                f"layer {name} is already packed for decoding and would give wrong gradients; load"
-                " the model with trainable=True"
-            )
+            why = "is already packed for decoding and would give wrong gradients"
+            raise PlannerError(f"layer {name} {why}; load the model with trainable=True")
         whole = allowed and has_avx512bf16() and layer.out_features % PACKING_ROWS == 0
         fits = whole and layer.in_features % layer.weight.quant_state.blocksize == 0
         layer.support_avx512bf16_for_cpu = bool(fits)

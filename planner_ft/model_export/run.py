@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.candidates import Candidate, adapters, resolve_candidate
+from planner_ft.candidates import adapters, resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer, require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.model_export import check as checks
@@ -20,10 +20,9 @@ from planner_ft.model_export.settings import ExportSettings
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, sha256_file, write_json, write_text
+from planner_ft.support.files import read_json, sha256_file, write_json, write_text, writing
 from planner_ft.support.manifest import build_manifest
-from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary import load_vocabulary
 
 MANIFEST = "manifest.json"
 KIND = "export"
@@ -46,18 +45,14 @@ def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
     out = settings.out.resolve()
     with alone(settings.out, "--out", "an export"):
         work = _Work(settings, say)
-        try:
-            with staging(out) as staged, staging(out) as former:
-                check = work.write_model(staged)
-                gguf = work.write_gguf(staged) if settings.gguf else None
-                work.write_record(staged, check, gguf)
-                if out.exists():  # an earlier export is removed only now
-                    out.replace(former / out.name)
-                staged.replace(out)
-        except OSError as error:
-            why = f"cannot be written ({error.strerror or error})"
-            way = "choose another folder or free some space"
-            raise PlannerError(f"{settings.out}: {why}; {way}") from error
+        way = "choose another folder or free some space"
+        with writing(settings.out, way), staging(out) as staged, staging(out) as former:
+            check = work.write_model(staged)
+            gguf = work.write_gguf(staged) if settings.gguf else None
+            work.write_record(staged, check, gguf)
+            if out.exists():  # an earlier export is removed only now
+                out.replace(former / out.name)
+            staged.replace(out)
     return Exported(settings.out, settings.out / gguf["file"] if gguf else None, check)
 
 
@@ -72,7 +67,9 @@ class _Work:
         folder = require_folder(self.candidate)
         self.adapter = None
         if settings.merge:
-            self.adapter = named or _own_adapter(self.candidate, self.level, self.vocabulary)
+            own = self.candidate, self.level
+            found = named or adapters.find_adapter(*own, self.vocabulary)
+            self.adapter = found or adapters.adapter_folder(*own)
             known: Record = {"level": self.level, "vocabulary": self.vocabulary}
             adapters.check_adapter(self.adapter, self.candidate, **known)
         if settings.gguf:
@@ -144,11 +141,6 @@ class _Work:
         )
         write_json(folder / MANIFEST, manifest)
         write_text(folder / "README.md", model_card(manifest))
-
-
-def _own_adapter(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> Path:
-    found = adapters.find_adapter(candidate, level, vocabulary)
-    return found or adapters.adapter_folder(candidate, level)
 
 
 def _check_out(settings: ExportSettings) -> None:

@@ -50,13 +50,7 @@ def adapter(trained: Path, tmp_path: Path) -> Path:
 
 def test_an_adapter_loads_on_its_base_and_changes_the_output(models: Path, adapter: Path) -> None:
     candidate = resolve_candidate("Llama-3.2-1B")
-    info = check_adapter(adapter, candidate, level="mission", vocabulary=load_vocabulary())
-    assert (info.rank, info.level, info.candidate, info.vocabulary) == (
-        4,
-        "mission",
-        "Llama-3.2-1B",
-        "usv",
-    )
+    check_adapter(adapter, candidate, level="mission", vocabulary=load_vocabulary())
     ids = torch.arange(8).reshape(1, 8)
     with torch.no_grad():
         plain = load_model(candidate, device="cpu")(input_ids=ids).logits
@@ -142,7 +136,7 @@ def test_a_plain_peft_adapter_fits_the_base_that_it_names(
     models: Path, adapter: Path, reference: str
 ) -> None:
     plain_peft(adapter, reference)
-    assert check_adapter(adapter, resolve_candidate("Llama-3.2-1B"), level="task").level is None
+    check_adapter(adapter, resolve_candidate("Llama-3.2-1B"), level="task")
     with pytest.raises(
         PlannerError, match=r"was trained on .*Llama-3.2-1B.*, not on Llama-3.2-1B-Instruct"
     ):
