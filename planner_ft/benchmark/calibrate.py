@@ -48,10 +48,9 @@ def calibrate(
     level: Level, data: Sequence[Path], out: Path, progress: Progress = silent, **named: Any
 ) -> tuple[Path, dict[str, Any]]:
     """Calibrate an agent on files of validation data and write the calibration beside its adapter,
-    or in its candidate's folder; returns the file and the figures of `manifest`.
-
-    `named` are those of PlanSettings. Answers are kept in `out`, and those that are there are not
-    made again. Raises PlannerError.
+    or in its candidate's folder; returns the file and the figures of `manifest`. `named` are those
+    of PlanSettings. Answers are kept in `out`, and those that are there are not made again. Raises
+    PlannerError.
     """
     settings = PlanSettings(**named)
     vocabulary = load_vocabulary(settings.vocabulary)

@@ -18,17 +18,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from planner_ft.benchmark.results import Measured, Results, System
 from planner_ft.benchmark.tables import render_tables
+from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import (
-    compact_json,
-    iterate_jsonl,
-    make_folder,
-    read_json,
-    write_json,
-    write_jsonl,
-    write_text,
-    writing,
-)
 from planner_ft.vocabulary.plans import check_level
 
 if TYPE_CHECKING:
@@ -49,7 +40,7 @@ def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
     """Make the folder. Raises PlannerError when it cannot be used or holds any of these files."""
     if present := [name for name in names if (folder / name).exists()]:
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
-    make_folder(folder)
+    files.make_folder(folder)
 
 
 def clear(folder: Path, names: Sequence[str] = ALL) -> None:
@@ -60,14 +51,13 @@ def clear(folder: Path, names: Sequence[str] = ALL) -> None:
 
 class RecordLog:
     """An append-only JSONL file of records with `key` and `id`, which the processes of a run share.
-
     Opening drops a last line that a killed run left without its end, and reads the records. Raises
     PlannerError when a line is damaged, or the file cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        with writing(path, "give another --out"):
+        with files.writing(path, "give another --out"):
             # Unbuffered: after a failed write nothing is left to be written again at closing.
             self.stream: IO[bytes] = open(path, "a+b", buffering=0)  # noqa: SIM115
         self.stream.seek(0)
@@ -78,7 +68,7 @@ class RecordLog:
 
     def read(self) -> None:
         """Read the records again, those of other processes, too."""
-        for number, record, problem in iterate_jsonl(self.path):
+        for number, record, problem in files.iterate_jsonl(self.path):
             if not problem and not _is_record(record):
                 problem = "no record of a run (key and id are expected)"
             if problem or record is None:
@@ -94,8 +84,8 @@ class RecordLog:
     def append(self, record: Line) -> None:
         """Write a record as one line, whole, at the end of the file."""
         self.records[record["key"], record["id"]] = record
-        with writing(self.path, "free some space and run the command again with --resume"):
-            line = f"{compact_json(record)}\n".encode()
+        with files.writing(self.path, "free some space and run the command again with --resume"):
+            line = f"{files.compact_json(record)}\n".encode()
             while line:
                 line = line[self.stream.write(line) :]
 
@@ -142,7 +132,7 @@ class RunRecord:
 def begin_run(plan: Plan, predictions: RecordLog) -> None:
     """Write run.json. Raises PlannerError when the folder holds a run of something else."""
     path, settings = plan.settings.folder / RUN, plan.settings
-    before: dict[str, Any] = read_json(path) if path.is_file() else {}
+    before: dict[str, Any] = files.read_json(path) if path.is_file() else {}
     _check_jobs(plan, path, before.get("jobs", {}))
     keys: dict[str, set[str]] = {}
     for job in plan.jobs:
@@ -161,7 +151,7 @@ def begin_run(plan: Plan, predictions: RecordLog) -> None:
     named = {name: getattr(settings, name) for name in ("level", "limit", "vocabulary", "seed")}
     inputs = {**named, "data": str(plan.data.path), "data_sha256": plan.data.sha256}
     merged = {name: {**before.get(name, {}), **values} for name, values in own.items()}
-    write_json(path, {"settings": inputs, **merged})
+    files.write_json(path, {"settings": inputs, **merged})
 
 
 def _check_jobs(plan: Plan, path: Path, recorded: dict[str, dict[str, Any]]) -> None:
@@ -177,10 +167,10 @@ def _check_jobs(plan: Plan, path: Path, recorded: dict[str, dict[str, Any]]) -> 
 
 def add_costs(folder: Path, candidate: str, costs: Mapping[str, Any]) -> None:
     """Record a candidate's costs; figures that are None leave those of an earlier session."""
-    record = read_json(folder / RUN)
+    record = files.read_json(folder / RUN)
     known = {name: value for name, value in costs.items() if value is not None}
     record["costs"][candidate] = {**record["costs"].get(candidate, {}), **known}
-    write_json(folder / RUN, record)
+    files.write_json(folder / RUN, record)
 
 
 def read_run(folder: Path) -> RunRecord:
@@ -189,7 +179,7 @@ def read_run(folder: Path) -> RunRecord:
     if not path.is_file():
         other = "for other predictions give --predictions FILE"
         raise PlannerError(f"{folder}: no {RUN}, so no run of `plannerft bench`; {other}")
-    record = read_json(path)
+    record = files.read_json(path)
     names = [field.name for field in fields(RunRecord)]
     if not isinstance(record, dict) or not all(isinstance(record.get(n), dict) for n in names):
         way = f"score its answers with --predictions {folder / PREDICTIONS}"
@@ -219,11 +209,11 @@ def write_results(folder: Path, results: Results, more: dict[str, Any] | None = 
     """Write scores, tables and, last, results.json (`more` first): then all is there."""
     # A report of earlier results would be taken for one of these.
     (folder / REPORT).unlink(missing_ok=True)
-    write_jsonl(folder / SCORES, results.scores)
-    write_jsonl(folder / BASELINES, results.baseline_scores)
+    files.write_jsonl(folder / SCORES, results.scores)
+    files.write_jsonl(folder / BASELINES, results.baseline_scores)
     for name, text in render_tables(results).items():
-        write_text(folder / name, text)
-    write_json(folder / RESULTS, (more or {}) | results.to_json())
+        files.write_text(folder / name, text)
+    files.write_json(folder / RESULTS, (more or {}) | results.to_json())
 
 
 def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
@@ -232,7 +222,7 @@ def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
     if not path.is_file():
         written = "`plannerft bench` or `plannerft score --out` has written to its end"
         raise PlannerError(f"{folder}: no {RESULTS}; give a folder that {written}")
-    record, kinds = read_json(path), {"level": str, "data": dict, "rows": list}
+    record, kinds = files.read_json(path), {"level": str, "data": dict, "rows": list}
     if not isinstance(record, dict) or not all(
         isinstance(record.get(key), kind) for key, kind in kinds.items()
     ):
@@ -245,7 +235,7 @@ def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
 
 def _scores(path: Path) -> Iterator[dict[str, Any]]:
     seen: set[tuple[Any, ...]] = set()
-    for number, line, problem in iterate_jsonl(path) if path.is_file() else ():
+    for number, line, problem in files.iterate_jsonl(path) if path.is_file() else ():
         if not problem and not (isinstance(line, dict) and isinstance(line.get("id"), str)):
             problem = "no score of a sample (id is expected)"
         if not problem and line is not None:

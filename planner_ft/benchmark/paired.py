@@ -10,24 +10,15 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from planner_ft.benchmark import statistics
 from planner_ft.benchmark.catalogue import METRIC, Metric
-from planner_ft.benchmark.statistics import (
-    RESAMPLES,
-    Estimate,
-    Floats,
-    cluster_sums,
-    clustered_rate,
-    in_blocks,
-    percentiles,
-    resampled_sums,
-)
 from planner_ft.support.tables import NOTHING, Cell
 
 Score = Mapping[str, Any]
 """A line of scores.jsonl."""
 Answers = Mapping[str, Sequence[Score]]
 """The scores of a system by sample id: one per sample, or one per repeat."""
-UNKNOWN = Estimate(None)
+UNKNOWN = statistics.Estimate(None)
 ENUMERATED = 12
 """Differing families up to which all 2**12 swaps are tried instead of RESAMPLES random ones."""
 
@@ -65,7 +56,7 @@ class Paired:
     families: int
     first: float | None
     second: float | None
-    difference: Estimate = UNKNOWN
+    difference: statistics.Estimate = UNKNOWN
     p: float | None = None
     p_mcnemar: float | None = None
 
@@ -80,21 +71,23 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
             terms.append((*one, *other))
     if not terms:
         return Paired(metric.name, 0, 0, None, None)
-    sums = cluster_sums(terms, families)
+    sums = statistics.cluster_sums(terms, families)
     before, after = (float(value) if np.isfinite(value) else None for value in _values(sums.sum(0)))
     if before is None or after is None:
         return Paired(metric.name, len(terms), len(sums), before, after)
     differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
-    difference = Estimate(after - before)
+    difference = statistics.Estimate(after - before)
     if not any(differs) and metric.fraction:
         # No resample differs either, and the bootstrap would be sure after three samples: the bound
         # is that of the share of samples that may differ.
-        most = clustered_rate(differs, families).high or 0.0
-        difference = Estimate(after - before, -most, most)
+        most = statistics.clustered_rate(differs, families).high or 0.0
+        difference = statistics.Estimate(after - before, -most, most)
     elif len(sums) > 1:
-        one, other = _values(resampled_sums(sums, seed))
+        one, other = _values(statistics.resampled_sums(sums, seed))
         known = (found := other - one)[np.isfinite(found)]
-        difference = Estimate(after - before, *percentiles(known))  # Efron 1979
+        difference = statistics.Estimate(
+            after - before, *statistics.percentiles(known)
+        )  # Efron 1979
     mcnemar: float | None = None
     if metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term):
         p = exact_swaps(sums[:, 2] - sums[:, 0])
@@ -112,7 +105,7 @@ def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | Non
     return (above / len(known), below / len(known)) if known else None
 
 
-def _values(sums: Floats) -> tuple[Any, Any]:
+def _values(sums: statistics.Floats) -> tuple[Any, Any]:
     """The metric of both systems, from (numerator, denominator) of each along the last axis."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return sums[..., 0] / sums[..., 1], sums[..., 2] / sums[..., 3]
@@ -141,12 +134,10 @@ def exact_swaps(differences: Iterable[float]) -> float:
     return float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum()))
 
 
-def swaps(sums: Floats, seed: int) -> float:
+def swaps(sums: statistics.Floats, seed: int) -> float:
     """Two-sided p of a difference if the two systems were swapped at random, family by family
-    (Fisher 1935; Pitman 1937).
-
-    `sums` are those of `_values`, (families, 4). All ways to swap are tried where few families
-    differ, else RESAMPLES random ones.
+    (Fisher 1935; Pitman 1937). `sums` are those of `_values`, (families, 4). All ways to swap are
+    tried where few families differ, else RESAMPLES random ones.
     """
     differing = sums[(sums[:, :2] != sums[:, 2:]).any(1)]
     count = len(differing)
@@ -154,7 +145,7 @@ def swaps(sums: Floats, seed: int) -> float:
         return 1.0
     exact = count <= ENUMERATED
     swapped = _all_swaps(count) if exact else _random_swaps(count, seed)
-    moved = in_blocks(swapped, differing[:, 2:] - differing[:, :2])
+    moved = statistics.in_blocks(swapped, differing[:, 2:] - differing[:, :2])
     whole = sums.sum(0)
     one, other = _values(np.concatenate([whole[:2] + moved, whole[2:] - moved], axis=1))
     seen_one, seen_other = _values(whole)
@@ -170,7 +161,7 @@ def _all_swaps(count: int) -> NDArray[np.int8]:
 
 @functools.lru_cache(maxsize=4)
 def _random_swaps(count: int, seed: int) -> NDArray[np.int8]:
-    return np.random.default_rng(seed).integers(0, 2, (RESAMPLES, count), dtype=np.int8)
+    return np.random.default_rng(seed).integers(0, 2, (statistics.RESAMPLES, count), dtype=np.int8)
 
 
 def holm(values: Sequence[float | None]) -> list[float | None]:
@@ -217,11 +208,11 @@ class Comparison:
         """A comparison as `to_json` wrote it."""
         values = {key: record[key] for key in ("metric", "n", "families", "p", "p_mcnemar")}
         values |= {end: record[f"{end}_value"] for end in ("first", "second")}
-        found = Paired(**values, difference=Estimate(**record["difference"]))
+        found = Paired(**values, difference=statistics.Estimate(**record["difference"]))
         return cls(record["first"], record["second"], found, record["p_adjusted"])
 
 
-def verdict(name: str, difference: Estimate, p_adjusted: float | None) -> Verdict:
+def verdict(name: str, difference: statistics.Estimate, p_adjusted: float | None) -> Verdict:
     """Real: adjusted p under 0.05; equal: known to differ by less than MARGIN; else unknown."""
     metric = METRIC.get(name)
     if difference.value is None or p_adjusted is None:
@@ -248,7 +239,7 @@ def p_text(p: float | None) -> str:
     return NOTHING if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
 
 
-def difference_cell(name: str, found: Estimate, mark: str = "") -> Cell:
+def difference_cell(name: str, found: statistics.Estimate, mark: str = "") -> Cell:
     """A difference with its sign, interval and mark, in the unit of its metric."""
     metric = METRIC[name]
     decimals = 3 if metric.scale == 1 and metric.fraction else metric.decimals

@@ -33,10 +33,8 @@ def time_planning(
     plan: Plan, jobs: Sequence[Job], progress: Callable[[str, int, int], None]
 ) -> dict[str, Any]:
     """Time the missing ones of the candidate's `planning_samples` commands for each number of
-    tasks, into planning.jsonl; no other model is loaded then.
-
-    Returns, for run.json, the key of each configuration's lines and why one could not be timed (it
-    has no adapter of the Task Agent).
+    tasks, into planning.jsonl; no other model is loaded then. Returns, for run.json, the key of
+    each configuration's lines and why one could not be timed (it has no adapter of the Task Agent).
     """
     variants, numbers = range(plan.settings.planning_samples), range(1, MOST + 1)
     pairs = [(tasks, variant) for variant in variants for tasks in numbers]

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, get_args
 
+from planner_ft.benchmark import summary
 from planner_ft.benchmark.baselines import make_baselines
 from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.catalogue import METRIC
@@ -16,13 +17,6 @@ from planner_ft.benchmark.paired import Comparison
 from planner_ft.benchmark.samples import BenchData
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.summary import (
-    cost_figures,
-    failure_counts,
-    group_figures,
-    pass_figures,
-    summarise,
-)
 from planner_ft.support.tables import NOTHING, Cell, RowKind
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -208,7 +202,7 @@ class Results:
     @property
     def groups(self) -> list[Record]:
         """Figures per group of the test data."""
-        return self.recorded.get("groups") or group_figures(self.scores)
+        return self.recorded.get("groups") or summary.group_figures(self.scores)
 
     def row(self, candidate: str, configuration: str) -> Row:
         """The row of a candidate and configuration."""
@@ -218,9 +212,8 @@ class Results:
 
 @dataclass(frozen=True)
 class Measured:
-    """One system with its answers and timed queries, both by sample id.
-
-    `costs` are the figures of run.json on its candidate, `planning` its lines of planning.jsonl.
+    """One system with its answers and timed queries, both by sample id. `costs` are the figures of
+    run.json on its candidate, `planning` its lines of planning.jsonl.
     """
 
     system: System
@@ -289,14 +282,14 @@ def score_system(
     row = Row(
         replace(first.system, repeat=None),
         n,
-        summarise(scores, seed),
-        failure_counts(scores),
+        summary.summarise(scores, seed),
+        summary.failure_counts(scores),
         dict(sorted(reasons.items())),
         tuple(dict.fromkeys(missing)),
         latency_n=sum(score.values["latency_s"] is not None for score in scores),
-        repeats=pass_figures(scores, seed) if several else None,
+        repeats=summary.pass_figures(scores, seed) if several else None,
         breakdown=breakdown(scores),
-        costs=cost_figures(timed, families, first.costs, first.planning, seed),
+        costs=summary.cost_figures(timed, families, first.costs, first.planning, seed),
     )
     named: Record = {name: getattr(first.system, name) for name in ("candidate", "configuration")}
     return row, [

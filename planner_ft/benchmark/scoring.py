@@ -69,10 +69,9 @@ class Answer:
 @dataclass(frozen=True)
 class SampleScore:
     """The score of one answer: `values` by metric, and the kind of failure, None when names, order
-    and parameters are right.
-
-    `alignment` and `types` (per type of parameter: values that agree, values that there are) are
-    for the tables by name and type, `details` explain values (`plan_logic`).
+    and parameters are right. `alignment` and `types` (per type of parameter: values that agree,
+    values that there are) are for the tables by name and type, `details` explain values
+    (`plan_logic`).
     """
 
     id: str
@@ -196,9 +195,8 @@ def _pooled(prefix: str, counts: names.Counts) -> Values:
 def plan_logic(answer: Answer) -> tuple[Values, Details]:
     """Metrics that read the command and replay the plan, and details that explain them: `stop`
     (where the plan stops), `ungrounded` values, and `slots` per kind as [stated, in parameters, in
-    the task prompt (null at task level)].
-
-    An answer that does not parse is not grounded, since it gives nothing to judge.
+    the task prompt (null at task level)]. An answer that does not parse is not grounded, since it
+    gives nothing to judge.
     """
     level, plan, vocabulary = answer.level, answer.plan, answer.vocabulary
     mission = level == "mission"

@@ -60,10 +60,9 @@ def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> E
 
 def effective_size(counts: Sequence[tuple[int, int]]) -> float:
     """As how many independent samples the samples of some clusters count for a rate; `counts` are
-    (successes, samples) of each cluster.
-
-    Samples are never counted for more than they are, and for no less than their clusters are. At 0
-    and 1, where a variance says nothing, samples of one cluster count as one.
+    (successes, samples) of each cluster. Samples are never counted for more than they are, and for
+    no less than their clusters are. At 0 and 1, where a variance says nothing, samples of one
+    cluster count as one.
     """
     n, clusters = sum(size for _hits, size in counts), len(counts)
     if clusters == n:

@@ -7,16 +7,10 @@ from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
 
+from planner_ft.benchmark import statistics
 from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.benchmark.metrics.failures import FAILURES
 from planner_ft.benchmark.scoring import SampleScore
-from planner_ft.benchmark.statistics import (
-    Estimate,
-    bootstrap_mean,
-    bootstrap_ratio,
-    clustered_rate,
-    quantile,
-)
 
 OF_GROUPS = ("f1", "exact_sequence", "parameters", "whole_plan", "strict_valid")
 QUANTILES = (("median", 0.5), ("p90", 0.9), ("p99", 0.99))
@@ -28,7 +22,9 @@ Term = tuple[float, float, str]
 """Numerator, denominator and family."""
 
 
-def summarise(scores: Scores, seed: int, names: Iterable[str] = METRIC) -> dict[str, Estimate]:
+def summarise(
+    scores: Scores, seed: int, names: Iterable[str] = METRIC
+) -> dict[str, statistics.Estimate]:
     """Metrics over samples, 95 %, families as such: Wilson for rates, bootstrap for others."""
     return {name: _estimate(METRIC[name], _terms(METRIC[name], scores), seed) for name in names}
 
@@ -49,16 +45,16 @@ def _terms(metric: Metric, scores: Scores) -> list[Term]:
     return [(*terms, family) for terms, family in found if terms]
 
 
-def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> Estimate:
+def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> statistics.Estimate:
     """The interval is that of a rate where all samples agree: a bootstrap then knows no doubt."""
     if not terms:
-        return Estimate(None)
+        return statistics.Estimate(None)
     tops, belows, families = zip(*terms, strict=True)
     if metric.kind == "rate":
-        return clustered_rate([top == 1 for top in tops], families)
-    estimate = bootstrap_ratio(tops, belows, families, seed)
+        return statistics.clustered_rate([top == 1 for top in tops], families)
+    estimate = statistics.bootstrap_ratio(tops, belows, families, seed)
     if metric.fraction and estimate.value in (0, 1):
-        return clustered_rate([estimate.value == 1] * len(families), families)
+        return statistics.clustered_rate([estimate.value == 1] * len(families), families)
     return estimate
 
 
@@ -119,7 +115,7 @@ def pass_figures(scores: Scores, seed: int) -> Figures:
         found[kind] = {}
         for k in range(1, found["k"] + 1):
             values = [estimator(right, n, k) for right, n in counts]
-            found[kind][str(k)] = bootstrap_mean(values, families, seed).to_json()
+            found[kind][str(k)] = statistics.bootstrap_mean(values, families, seed).to_json()
     return found
 
 
@@ -130,26 +126,27 @@ def cost_figures(
     planning: Sequence[Mapping[str, Any]],
     seed: int,
 ) -> Figures:
-    """The `costs` of a row in results.json; empty where nothing was measured.
-
-    `timed` are lines of latency.jsonl by sample id, `families` the phrasing families of samples,
-    `beside` the figures of run.json on the candidate, `planning` the row's lines of planning.jsonl.
+    """The `costs` of a row in results.json; empty where nothing was measured. `timed` are lines of
+    latency.jsonl by sample id, `families` the phrasing families of samples, `beside` the figures of
+    run.json on the candidate, `planning` the row's lines of planning.jsonl.
     """
     known = {name: line for name, line in timed.items() if _is_number(line.get("latency_s"))}
     lines, figures = list(known.values()), Figures()
     clusters = [families.get(name, name) for name in known]
     if lines:
         seconds = [float(line["latency_s"]) for line in lines]
-        of_shares = {name: quantile(seconds, share).to_json() for name, share in QUANTILES}
+        of_shares = {
+            name: statistics.quantile(seconds, share).to_json() for name, share in QUANTILES
+        }
         figures["latency_s"] = of_shares
         first = [line.get("first_token_s") for line in lines]
         pairs = [(one, of) for one, of in zip(first, clusters, strict=True) if one is not None]
         if pairs:
             times, own = zip(*pairs, strict=True)
-            figures["first_token_s"] = bootstrap_mean(times, own, seed).to_json()
+            figures["first_token_s"] = statistics.bootstrap_mean(times, own, seed).to_json()
         if all(_is_number(line.get("tokens")) for line in lines):
             tokens = [float(line["tokens"]) for line in lines]
-            rate = bootstrap_ratio(tokens, seconds, clusters, seed)
+            rate = statistics.bootstrap_ratio(tokens, seconds, clusters, seed)
             figures["tokens_per_s"] = rate.to_json()
         figures["n"] = len(lines)
     figures |= {name: beside[name] for name in BESIDE if beside.get(name) is not None}
@@ -171,6 +168,6 @@ def _planning_times(lines: Sequence[Mapping[str, Any]], seed: int) -> list[Figur
         seconds, ids = [line["seconds"] for line in found], [line["id"] for line in found]
         agents = ("mission_s", "task_s")
         means = {name: sum(line[name] for line in found) / len(found) for name in agents}
-        whole = bootstrap_mean(seconds, ids, seed).to_json()
+        whole = statistics.bootstrap_mean(seconds, ids, seed).to_json()
         made.append({"tasks": tasks, "n": len(found), "seconds": whole, **means})
     return made

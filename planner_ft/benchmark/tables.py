@@ -10,16 +10,9 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from planner_ft.benchmark import layout
 from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT, SECTIONS
 from planner_ft.benchmark.contrasts import DECISIVE, Contrasts, baseline_name
-from planner_ft.benchmark.layout import (
-    by_candidate,
-    figures_table,
-    lines,
-    metric_table,
-    notes,
-    shows_published,
-)
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.paired import MARKS, Comparison, difference_cell, verdict
 from planner_ft.benchmark.results import Results, Row
@@ -70,32 +63,32 @@ GROUPS: Columns = (
 
 def render_tables(results: Results) -> dict[str, str]:
     """The texts of table.md, table.csv and table.tex."""
-    shown, below = lines(results), notes(results)
+    shown, below = layout.lines(results), layout.notes(results)
     texts = [markdown_table(table) for table in tables(results)]
     commented = "".join(f"% {note}\n" for note in below)
     return {
         "table.md": "\n".join([*texts, *(f"- {note}" for note in below)]) + "\n",
-        "table.csv": csv_table(figures_table(shown)),
-        "table.tex": latex_table(metric_table(MAIN, shown)) + commented,
+        "table.csv": csv_table(layout.figures_table(shown)),
+        "table.tex": latex_table(layout.metric_table(MAIN, shown)) + commented,
     }
 
 
 def tables(results: Results) -> list[Table]:
     """Every table of table.md: the published metrics first."""
-    shown = lines(results)
+    shown = layout.lines(results)
     ours = [line for line in shown if line.kind != "published"]
-    first = [metric_table(MAIN, shown), metric_table(RIGHT, ours), _failures(results)]
+    first = [layout.metric_table(MAIN, shown), layout.metric_table(RIGHT, ours), _failures(results)]
     return [*first, *detail_tables(results)]
 
 
 def detail_tables(results: Results) -> Iterator[Table]:
     """The tables behind the first ones."""
-    ours = lines(results, beside=False)
+    ours = layout.lines(results, beside=False)
     for title, names in SECTIONS.items():
-        table = metric_table(names, ours, corner=title)
+        table = layout.metric_table(names, ours, corner=title)
         if len(table.columns) > 2:
             yield table
-    for of_candidate in by_candidate(results.rows):
+    for of_candidate in layout.by_candidate(results.rows):
         yield from names_tables(of_candidate)
         yield from counted_tables(of_candidate)
         yield from examples_tables(of_candidate)
@@ -128,7 +121,7 @@ def _failures(results: Results) -> Table:
         row(one.name, str(one.n), *(str(one.failures.get(kind, 0)) for kind in FAILURES))
         for one in results.rows
     ]
-    if results.level == "mission" and shows_published(results):
+    if results.level == "mission" and layout.shows_published(results):
         counts = (str(PUBLISHED.get(kind, 0)) for kind in FAILURES)
         rows.append(row("mission agent (published)", "25", *counts, kind="published"))
     return Table("Wrong answers by kind", ("n", *FAILURES), rows)

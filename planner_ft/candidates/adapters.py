@@ -7,12 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import planner_ft
-from planner_ft.candidates.location import (
-    check_safetensors,
-    file_sha256,
-    safe_weights,
-    weights_sha256,
-)
+from planner_ft.candidates import location
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_tree
@@ -75,7 +70,9 @@ def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -
             "repo": candidate.repo,
             "revision": candidate_revision(candidate),
             "standin": candidate.is_standin,
-            "weights_sha256": weights_sha256(candidate.folder) if candidate.folder else None,
+            "weights_sha256": location.weights_sha256(candidate.folder)
+            if candidate.folder
+            else None,
         },
         "level": level,
         "vocabulary": vocabulary.named,
@@ -95,17 +92,16 @@ def check_adapter(
     level: Level | None = None,
     vocabulary: Vocabulary | None = None,
 ) -> None:
-    """Check that a PEFT adapter folder is complete, safe and made for this candidate.
-
-    Compares level and vocabulary too where they are given. Reads the weights once for a file that
-    does not change. Raises PlannerError in one sentence.
+    """Check that a PEFT adapter folder is complete, safe and made for this candidate. Compares
+    level and vocabulary too where they are given. Reads the weights once for a file that does not
+    change. Raises PlannerError in one sentence.
     """
     folder = Path(folder)
     if not folder.is_dir():
         command = f"`plannerft train --candidate {candidate.name}`"
         raise PlannerError(f"{folder}: no such adapter folder; train one with {command}")
     config, manifest = _config(folder), _manifest(folder)
-    shapes = check_safetensors(safe_weights(folder, WEIGHTS))
+    shapes = location.check_safetensors(location.safe_weights(folder, WEIGHTS))
     base, trained_with = manifest.get("base", {}), manifest.get("vocabulary", {})
     if base:
         _check_base(folder, base, candidate)
@@ -139,7 +135,7 @@ def _manifest(folder: Path) -> dict[str, Any]:
 def _check_content(folder: Path, digests: dict[str, str]) -> None:
     """Weights must be finite, and files those that the manifest's `outputs` name."""
     for path in (folder / WEIGHTS, folder / CONFIG):
-        if digests.get(path.name) not in (None, file_sha256(path)):
+        if digests.get(path.name) not in (None, location.file_sha256(path)):
             why = f"not the file that training wrote ({MANIFEST} has another digest)"
             raise PlannerError(f"{path}: {why}; {AGAIN}")
     status = (folder / WEIGHTS).stat()
@@ -182,7 +178,7 @@ def _check_base(folder: Path, base: dict[str, Any], candidate: Candidate) -> Non
         other = f"this adapter was trained on {trained} and does not fit {here}"
         raise PlannerError(f"{folder}: {other}; {way_out}")
     recorded = base.get("weights_sha256")
-    if candidate.folder and recorded not in (None, weights_sha256(candidate.folder)):
+    if candidate.folder and recorded not in (None, location.weights_sha256(candidate.folder)):
         other = f"other weights of {candidate.name} than those in {candidate.folder}"
         raise PlannerError(f"{folder}: this adapter was trained on {other}; train it again")
 

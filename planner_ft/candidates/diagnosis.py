@@ -14,13 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import planner_ft
-from planner_ft.candidates.loading import (
-    compute_dtype,
-    download_command,
-    how_to_get,
-    quiet_libraries,
-    resolve_device,
-)
+from planner_ft.candidates import loading
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_cache
 from planner_ft.candidates.memory import GIB, device_memory, memory_summary
 from planner_ft.candidates.packing import set_packing
@@ -69,8 +63,8 @@ def describe(candidate: Candidate) -> Found:
         "folder": None if missing else str(candidate.folder),
         "source": candidate.source,
         "problem": problem,
-        "get": how_to_get(candidate) if missing else None,
-        "command": download_command(candidate) if missing else None,
+        "get": loading.how_to_get(candidate) if missing else None,
+        "command": loading.download_command(candidate) if missing else None,
     }
 
 
@@ -154,13 +148,13 @@ def _machine() -> Found:
 def _devices(warnings: list[str]) -> Found:
     import torch
 
-    chosen = resolve_device("auto")
+    chosen = loading.resolve_device("auto")
     found: Found = {
         "torch": torch.__version__,
         "cuda build": torch.version.cuda,
         "threads": torch.get_num_threads(),
         "chosen by --device auto": str(chosen),
-        "compute dtype": str(compute_dtype(chosen)).removeprefix("torch."),
+        "compute dtype": str(loading.compute_dtype(chosen)).removeprefix("torch."),
     }
     for index in range(torch.cuda.device_count()):
         device = torch.cuda.get_device_properties(index)
@@ -195,12 +189,12 @@ def probe_four_bit(device: str = "auto") -> Found:
     """Quantise a layer to NF4, multiply with it and take a gradient through it: errors as relative
     norms, whether layers pack for decoding (AVX512-BF16 CPUs), and the problem or None.
     """
-    target = resolve_device(device)
-    dtype = compute_dtype(target)
+    target = loading.resolve_device(device)
+    dtype = loading.compute_dtype(target)
     begun, problem = time.perf_counter(), None
     weight, gradient, packs = None, None, False
     try:
-        quiet_libraries()
+        loading.quiet_libraries()
         weight, gradient, packs = _try_layer(target, dtype)
         if not (weight < WEIGHT_ERROR and gradient < GRADIENT_ERROR):
             errors = f"error {weight:.3f} of the product, {gradient:.3f} of the gradient"

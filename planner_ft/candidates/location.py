@@ -36,7 +36,6 @@ def find_folder(
 
 def cached_snapshot(repo: str, revision: str | None) -> Path | None:
     """The folder of a repository's snapshot in the hub cache (HF_HUB_CACHE, HF_HOME), or None.
-
     Reads the cache's documented layout: importing huggingface_hub would cost half a second.
     """
     base = hub_cache() / f"models--{repo.replace('/', '--')}"
@@ -124,9 +123,8 @@ def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
 
 
 def weights_sha256(folder: Path) -> str:
-    """One SHA-256 over names and digests of a model's weight files and config.json.
-
-    Files of the hub cache are links to blobs that are named by their SHA-256; only others are read.
+    """One SHA-256 over names and digests of a model's weight files and config.json. Files of the
+    hub cache are links to blobs that are named by their SHA-256; only others are read.
     """
     lines = []
     for path in (folder / "config.json", *weight_files(folder)):

@@ -26,7 +26,6 @@ PACKING_ROWS = 32
 
 def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
     """Allow or forbid CPU packing of the model's 4-bit layers; return how many layers may pack.
-
     Layers whose shape the packed layout cannot hold never pack (bitsandbytes would fail on them).
     Raises PlannerError when packing is to be forbidden and a layer is packed already: load the
     model anew with `trainable=True`.

@@ -105,10 +105,9 @@ class AdapterDefaults:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A language model that can be prompted, fine-tuned and benchmarked.
-
-    `folder` is where it lies on this machine, None when it is not here. `vocabulary` names the
-    vocabulary that it was pretrained on; `adapter` holds there, `other_vocabulary` elsewhere.
+    """A language model that can be prompted, fine-tuned and benchmarked. `folder` is where it lies
+    on this machine, None when it is not here. `vocabulary` names the vocabulary that it was
+    pretrained on; `adapter` holds there, `other_vocabulary` elsewhere.
     """
 
     name: str
@@ -175,7 +174,6 @@ def all_candidates() -> list[Candidate]:
 
 def resolve_candidate(name_or_path: str | Path) -> Candidate:
     """The candidate of a registered name, hub id ("org/name", "org/name@revision") or local folder.
-
     Loads nothing, and succeeds for models that are not on this machine (`folder` is None then).
     Raises PlannerError for a name that is none of these.
     """

@@ -91,9 +91,8 @@ def token_table(path: Path, size: int) -> TokenTable:
 
 def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
     """The number of texts, all with the same ids in both tokenizers. Raises PlannerError, with the
-    first text that differs.
-
-    llama.cpp's way is computed with the tokenizers library: the same merges after the other split.
+    first text that differs. llama.cpp's way is computed with the tokenizers library: the same
+    merges after the other split.
     """
     from tokenizers import AddedToken, Regex, Tokenizer
     from tokenizers.pre_tokenizers import ByteLevel, Sequence, Split

@@ -14,11 +14,10 @@ OutType = Literal["f32", "f16"]
 
 @dataclass(frozen=True)
 class ExportSettings:
-    """An export of `candidate` into the folder `out`.
-
-    `merge` folds the adapter of `level` in: `adapter` ("DIR" or "LEVEL=DIR"), or the candidate's
-    own. `gguf` writes a GGUF file, too, its matrices in `outtype`. `checks` commands are answered
-    before and after: those of `data`, or of the level's validation set.
+    """An export of `candidate` into the folder `out`. `merge` folds the adapter of `level` in:
+    `adapter` ("DIR" or "LEVEL=DIR"), or the candidate's own. `gguf` writes a GGUF file, too, its
+    matrices in `outtype`. `checks` commands are answered before and after: those of `data`, or of
+    the level's validation set.
     """
 
     candidate: str

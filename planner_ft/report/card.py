@@ -27,9 +27,8 @@ Measured = tuple[TestSet, Row]
 
 def write_card(adapter: Path, runs: Sequence[Path]) -> int:
     """Write what these runs measured with exactly this adapter into its card; figures of an earlier
-    call are replaced. Returns how many figures were written.
-
-    Raises PlannerError when the folder has no card, or no run measured these very weights.
+    call are replaced. Returns how many figures were written. Raises PlannerError when the folder
+    has no card, or no run measured these very weights.
     """
     from huggingface_hub import ModelCard
 

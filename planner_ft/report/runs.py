@@ -110,7 +110,6 @@ def within(record: Any, *keys: str) -> Any:
 
 def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[TestSet]:
     """The runs in these folders (or below them), grouped by the data that they were measured on.
-
     `data` are files to look for test data in beside the path that a run names; only one with the
     recorded SHA-256 is used. Raises PlannerError for a folder without results and damaged files.
     """

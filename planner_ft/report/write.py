@@ -40,7 +40,6 @@ def write_report(
     pictures: str = "all",
 ) -> list[Path]:
     """Report on these runs in `out`: report.html, figures/ and tables/. Returns what was written.
-
     `pictures` says which charts become files in figures/, which takes most of the time: all of
     them, those over all systems, or none. Raises PlannerError where a run cannot be read, or where
     a report is there already and `overwrite` is not given.

@@ -37,7 +37,6 @@ def writing(path: Path | str, way: str, what: str = "cannot be written") -> Iter
 @contextlib.contextmanager
 def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
     """A temporary file beside `path` that replaces it when the block ends without an exception.
-
     Raises PlannerError when the folder cannot be written or the disk is full; `path` is then as it
     was.
     """
@@ -169,7 +168,6 @@ def read_toml(path: Path | str) -> dict[str, Any]:
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:
     """(line number, value, None) or (line number, None, problem) of every line that is not blank.
-
     Raises PlannerError when the file is missing, unreadable or not UTF-8.
     """
     # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON strings may hold.

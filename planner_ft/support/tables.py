@@ -41,9 +41,8 @@ TEX = {
 
 @dataclass(frozen=True)
 class Cell:
-    """A figure as text, its interval, and a mark that says whether a difference is real.
-
-    `bounds` are (value, low, high) as numbers for CSV; `heat` (0 to 6) shades the cell.
+    """A figure as text, its interval, and a mark that says whether a difference is real. `bounds`
+    are (value, low, high) as numbers for CSV; `heat` (0 to 6) shades the cell.
     """
 
     text: str

@@ -73,9 +73,8 @@ class TrainState:
 
 @dataclass
 class Run:
-    """A model in training. `pad` is the id that fills batches; layers compute in `dtype`.
-
-    `best` is the best adapter so far, None for the current one.
+    """A model in training. `pad` is the id that fills batches; layers compute in `dtype`. `best` is
+    the best adapter so far, None for the current one.
     """
 
     settings: TrainSettings

@@ -22,9 +22,8 @@ LONGEST = 1024
 
 def lean_states(model: Any, input_ids: Tensor, positions: Tensor | None) -> Tensor | None:
     """The decoder's last hidden states (rows, width, hidden) of a PEFT model, as autocast to
-    bfloat16 would give them; None where the model is not one that this module computes.
-
-    `positions` as in `Batch`: samples that share a row do not see each other.
+    bfloat16 would give them; None where the model is not one that this module computes. `positions`
+    as in `Batch`: samples that share a row do not see each other.
     """
     base = model.get_base_model()
     if not _fits(model, base, input_ids):

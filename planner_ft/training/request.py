@@ -26,9 +26,8 @@ RUN_KEYS = (
 
 @dataclass(frozen=True)
 class TrainRequest:
-    """The model, data, settings and output folder of a run.
-
-    `validation_file` is None without validation, `corrections` without added corrected plans.
+    """The model, data, settings and output folder of a run. `validation_file` is None without
+    validation, `corrections` without added corrected plans.
     """
 
     level: Level
@@ -49,9 +48,8 @@ class TrainRequest:
     def fingerprint(
         self, training: str, validation: str | None, base_weights: str
     ) -> dict[str, Any]:
-        """Everything that the learned weights depend on, with the digests of data and base.
-
-        A resumed run must have the same.
+        """Everything that the learned weights depend on, with the digests of data and base. A
+        resumed run must have the same.
         """
         return {
             "level": self.level,
@@ -89,9 +87,8 @@ def build_request(
     overwrite: bool = False,
     resume: bool = False,
 ) -> TrainRequest:
-    """Combine flags, recipe, the candidate's adapter settings, published ones and defaults.
-
-    `run` holds RUN_KEYS, None where not given. Raises PlannerError that lists every problem.
+    """Combine flags, recipe, the candidate's adapter settings, published ones and defaults. `run`
+    holds RUN_KEYS, None where not given. Raises PlannerError that lists every problem.
     """
     problems: list[str] = []
 

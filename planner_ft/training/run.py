@@ -55,10 +55,9 @@ def train(
     request: TrainRequest, console: Console, new_judge: NewJudge | None = None
 ) -> dict[str, Any] | None:
     """Run the checks, train, write the adapter folder and return its manifest. What `new_judge`
-    makes answers validation samples after each epoch.
-
-    None when --resume finds the run complete. Raises PlannerError for anything that the user can
-    put right, and InterruptedRunError after Ctrl-C.
+    makes answers validation samples after each epoch. None when --resume finds the run complete.
+    Raises PlannerError for anything that the user can put right, and InterruptedRunError after
+    Ctrl-C.
     """
     for text in request.resolved.departures(request.level):
         _say(console, f"note: {text}")

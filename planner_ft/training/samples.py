@@ -137,9 +137,8 @@ def read_split(
     limit: int | None = None,
     known: Split | None = None,
 ) -> Split | None:
-    """Read a JSONL file, at most `limit` records; None when it cannot be read at all.
-
-    Everything wrong with it is added to `problems`, also ids that `known` holds already.
+    """Read a JSONL file, at most `limit` records; None when it cannot be read at all. Everything
+    wrong with it is added to `problems`, also ids that `known` holds already.
     """
     if not path.is_file():
         command = f"`plannerft gen-data --level {level}`"
@@ -230,9 +229,8 @@ def shortened(problems: Iterable[str]) -> list[str]:
 
 
 def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
-    """The sample as the model sees it: prompt dim, completion green, special tokens reversed.
-
-    The trained part stands in ⟦ ⟧, so that it shows without colour.
+    """The sample as the model sees it: prompt dim, completion green, special tokens reversed. The
+    trained part stands in ⟦ ⟧, so that it shows without colour.
     """
     from rich.text import Text
 

@@ -127,7 +127,6 @@ def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
 
 def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
     """Train and benchmark every unit that is not finished, each step in a process of its own.
-
     Raises IncompleteError when one fails: what is finished is kept.
     """
     units, begun = curve.units, time.monotonic()

@@ -93,10 +93,9 @@ def common_subsequence(predicted: Sequence[Hashable], expected: Sequence[Hashabl
 
 
 def edge_f1(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
-    """F1 between the sets of edges of two sequences (TaskBench's edge F1, Shen et al. 2023).
-
-    A node is a name with the number of its occurrence; an edge leads from each node to the next.
-    Where neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
+    """F1 between the sets of edges of two sequences (TaskBench's edge F1, Shen et al. 2023). A node
+    is a name with the number of its occurrence; an edge leads from each node to the next. Where
+    neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
     """
     ours, theirs = _edges(predicted), _edges(expected)
     if not ours and not theirs:

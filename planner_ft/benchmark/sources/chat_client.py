@@ -119,11 +119,10 @@ class ChatClient:
     def complete_all(
         self, function: Callable[[Item], Result], items: Sequence[Item]
     ) -> Iterator[tuple[int, Result]]:
-        """Yield (index of the item, result) as results come, `concurrency` at a time.
-
-        When a call raises, no further item is begun, those that were begun are waited for and
-        yielded if they succeed, and then the first exception is raised. The threads are daemons, so
-        that a program can end while a server hangs.
+        """Yield (index of the item, result) as results come, `concurrency` at a time. When a call
+        raises, no further item is begun, those that were begun are waited for and yielded if they
+        succeed, and then the first exception is raised. The threads are daemons, so that a program
+        can end while a server hangs.
         """
         waiting: queue.SimpleQueue[tuple[int, Item]] = queue.SimpleQueue()
         done: queue.SimpleQueue[tuple[int, Any, BaseException | None] | None] = queue.SimpleQueue()

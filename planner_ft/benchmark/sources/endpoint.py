@@ -173,7 +173,6 @@ class EndpointSource:
 
 def served_schema(level: Level, vocabulary: Vocabulary) -> Schema:
     """The strict schema of a level's plans in the words that servers' grammar compilers understand.
-
     Compilers differ: llama.cpp's reads no unanchored pattern and takes `anyOf` instead of the
     properties beside it. The form here admits the same plans but for one thing: a text that must
     not be blank must only not be empty.

@@ -146,9 +146,8 @@ def in_batches(
     out_of_memory: Callable[[Exception], bool],
 ) -> Iterator[tuple[int, Answer, int]]:
     """Yield (index, answer, size of its batch), longest queries first, so that a query that does
-    not fit shows at once; those that a full memory left unanswered are asked again.
-
-    `ask` answers the queries of some indices and yields (place among them, answer).
+    not fit shows at once; those that a full memory left unanswered are asked again. `ask` answers
+    the queries of some indices and yields (place among them, answer).
     """
     waiting = sorted(range(len(lengths)), key=lambda index: (-lengths[index], index))
     while waiting:

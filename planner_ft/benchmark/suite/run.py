@@ -34,7 +34,6 @@ HOW = (
 @dataclass(frozen=True)
 class PartResults:
     """One data set of a suite with everything that was measured on it; `results` may have no rows.
-
     `failed` are candidates in configurations that could not be measured: candidate, label,
     configuration, reason.
     """
@@ -53,10 +52,9 @@ def run_suite(
     suite: Suite, out: Path, changes: dict[str, Any], report: Report, **how: Any
 ) -> list[PartResults]:
     """Run every unit of a suite that is not finished and write the tables of all into `out`;
-    `changes` are settings of the command line, `how` is given to `opened`.
-
-    A unit that fails is named in the result and in the tables, and the others go on. Raises
-    PlannerError for problems that keep the suite from starting.
+    `changes` are settings of the command line, `how` is given to `opened`. A unit that fails is
+    named in the result and in the tables, and the others go on. Raises PlannerError for problems
+    that keep the suite from starting.
     """
     session = opened(suite, out, changes, report, **how)
     session.run()
