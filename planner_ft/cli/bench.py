@@ -28,60 +28,31 @@ OUTPUT = "give --overwrite or another --out"
 
 
 @command
-def bench(
-    level: str | None = None,
-    candidates: str | None = None,
-    configurations: str | None = None,
-    data: Path | None = None,
-    limit: int | None = None,
-    adapter: list[str] | None = None,
-    out: Path | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    device: str = "auto",
-    quantization: str | None = None,
-    batch_size: str = "auto",
-    max_new_tokens: int | None = None,
-    latency_samples: int | None = None,
-    planning_samples: int | None = None,
-    vocabulary: str | None = None,
-    repeats: int | None = None,
-    temperature: float | None = None,
-    top_p: float | None = None,
-    seed: int = 0,
-    endpoint: str | None = None,
-    model: str | None = None,
-    api_key_env: str | None = None,
-    concurrency: int | None = None,
-    timeout: float | None = None,
-    retries: int | None = None,
-    suite: Path | None = None,
-    processes: int = 1,
-    gate: Path | None = None,
-    field: bool = False,
-    cases: list[Path] | None = None,
-    no_report: bool = False,
-) -> None:
+def bench(**options: Any) -> None:
     """Benchmark candidates, run a suite or gate file, or field cases."""
-    named, served = given(locals(), *RUN), given(locals(), *SERVER)
-    generation = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed}
-    rerun = {"resume": resume, "overwrite": overwrite}
+    named, served = given(options, *RUN), given(options, *SERVER)
+    generation = {name: options[name] for name in ("device", "seed")}
+    generation["batch_size"] = _batch_size(options["batch_size"])
+    rerun = {name: options[name] for name in ("resume", "overwrite")}
+    out, cases, field = options["out"], options["cases"], options["field"]
+    suite, gate, report = options["suite"], options["gate"], not options["no_report"]
     if cases and not field:
         raise PlannerError(f"{cases[0]}: files stand behind --field; test data is given by --data")
-    if field or level == "both":
+    if field or options["level"] == "both":
         from planner_ft.cli.field import run_whole
 
-        whole = named | served | ({"resume": True} if resume else {})
-        found = (cases or []) if field else None
-        run_whole(found, out, whole | {"device": device}, overwrite=overwrite)
+        whole = named | served | ({"resume": True} if rerun["resume"] else {})
+        whole["device"], found = options["device"], (cases or []) if field else None
+        run_whole(found, out, whole, overwrite=rerun["overwrite"])
     elif suite is not None:
         _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
-        _run_suite(suite, out, generation | named, rerun, processes, report=not no_report)
+        how = {"processes": options["processes"], **rerun}
+        _run_suite(suite, out, generation | named, how, report=report)
     elif gate is not None:
         _check_file_alone("gate", gate, named | served)
         _run_gate(gate, out, generation | rerun)
     else:
-        _run(_settings(named, served, out=out, **generation, **rerun), report=not no_report)
+        _run(_settings(named, served, out=out, **generation, **rerun), report=report)
 
 
 @command
@@ -194,20 +165,14 @@ def _check_file_alone(
 
 
 def _run_suite(
-    path: Path,
-    out: Path | None,
-    changes: dict[str, Any],
-    rerun: dict[str, bool],
-    processes: int,
-    *,
-    report: bool,
+    path: Path, out: Path | None, changes: dict[str, Any], how: dict[str, Any], *, report: bool
 ) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
     from planner_ft.benchmark.layout import print_warnings
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
 
-    if all(rerun.values()):
+    if how["resume"] and how["overwrite"]:
         problem = "--resume keeps former results and --overwrite removes them"
         raise PlannerError(f"{problem}: give one of them")
     suite = load_suite(path)
@@ -220,7 +185,7 @@ def _run_suite(
         def shown(state: State) -> None:
             step(state.unit, _state_line(state))
 
-        parts = run_suite(suite, folder, changes, shown, processes=processes, **rerun)
+        parts = run_suite(suite, folder, changes, shown, **how)
     show((folder / "table.md").read_text(encoding="utf-8"))
     for part in parts:
         print_warnings(part.results, terminal(stderr=True))

@@ -55,31 +55,15 @@ def _option(name: str) -> Any:
 
 @with_settings()
 @command
-def train(
-    level: str | None = None,
-    candidate: str | None = None,
-    recipe: str | None = None,
-    data_dir: str | None = None,
-    train_file: str | None = None,
-    validation_file: str | None = None,
-    corrections: str | None = None,
-    vocabulary: str | None = None,
-    output: str | None = None,
-    overwrite: bool = False,
-    resume: bool = False,
-    preview: bool = False,
-    preview_id: str | None = None,
-    **settings: Any,
-) -> None:
+def train(**options: Any) -> None:
     """Fine-tune a LoRA adapter on a 4-bit base."""
-
     from planner_ft.training.request import RUN_KEYS, build_request
 
-    options = locals()
-    names = {name: options[name] for name in RUN_KEYS}
-    request = build_request(names, settings, recipe=recipe, overwrite=overwrite, resume=resume)
-    console = terminal(soft_wrap=True)
-    if preview or preview_id:
+    names, settings = ({key: options[key] for key in keys} for keys in (RUN_KEYS, FIELDS))
+    rerun = {name: options[name] for name in ("recipe", "overwrite", "resume")}
+    request, console = build_request(names, settings, **rerun), terminal(soft_wrap=True)
+    preview_id = options["preview_id"]
+    if options["preview"] or preview_id:
         _preview(request, preview_id, console)
     else:
         _train(request, console)
