@@ -235,9 +235,7 @@ def _job(
     used = adapter if configuration.adapter else None
     default = candidate.adapter_defaults(settings.level, vocabulary).quantization
     quantization = settings.quantization or default or "nf4"
-    # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
-    pretrained = candidate.knows(vocabulary)
-    with_vocabulary = not configuration.adapter and not pretrained
+    with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, used)
     parts = {
         "model": weights_sha256(folder),
         "tokenizer": sha256_tree(folder, TOKENIZER_FILES),
@@ -249,7 +247,7 @@ def _job(
         configuration,
         candidate.row_name,
         is_standin=candidate.is_standin,
-        pretrained=pretrained,
+        pretrained=candidate.knows(vocabulary),
         with_vocabulary=with_vocabulary,
         adapter=str(used) if used else None,
         seen=seen.get(candidate.name, 0) if used else 0,

@@ -147,10 +147,11 @@ def check_rendering(request: TrainRequest, prepared: Prepared, finding: Finding)
     if tokenizer is None or not prepared.splits:
         finding.text, finding.skipped = "skipped: no tokenizer or no data", True
         return
+    shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
     if prepared.train:
-        prepared.train = prepared.train.rendered(tokenizer)
+        prepared.train = prepared.train.rendered(tokenizer, **shown)
     if prepared.validation:
-        prepared.validation = prepared.validation.rendered(tokenizer)
+        prepared.validation = prepared.validation.rendered(tokenizer, **shown)
     most, dimensions = request.settings.max_length, request.candidate.dimensions
     limit = min(most, dimensions.context) if dimensions else most
     holds = f"{request.candidate.name} takes no more"

@@ -48,7 +48,8 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
         file = request.train_file
         raise PlannerError(f"--preview-id {sample_id}: {file} holds no record of that id")
     tokenizer = load_tokenizer(request.candidate)
-    return replace(split, records=found).rendered(tokenizer).samples[0], tokenizer
+    shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
+    return replace(split, records=found).rendered(tokenizer, **shown).samples[0], tokenizer
 
 
 def train(

@@ -63,10 +63,11 @@ class Split:
         texts = (user_text(self.level, record, self.vocabulary) for record in self.records)
         return list(map(input_digest, texts))
 
-    def rendered(self, tokenizer: PreTrainedTokenizerBase) -> Split:
-        """The split with its samples rendered."""
+    def rendered(self, tokenizer: PreTrainedTokenizerBase, **shown: Any) -> Split:
+        """The split with its samples rendered; `shown` is given to `render_sample`."""
+        known = tokenizer, self.vocabulary
         samples = [
-            Sample(record["id"], render_sample(self.level, record, tokenizer, self.vocabulary))
+            Sample(record["id"], render_sample(self.level, record, *known, **shown))
             for record in self.records
         ]
         return replace(self, samples=samples)

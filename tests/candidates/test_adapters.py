@@ -179,7 +179,7 @@ def append(path: Path, text: str) -> None:
 
 def test_an_adapter_with_the_files_that_training_wrote_passes(models: Path, adapter: Path) -> None:
     record_outputs(adapter)
-    assert check_adapter(adapter, resolve_candidate("Llama-3.2-1B")).rank == 4
+    check_adapter(adapter, resolve_candidate("Llama-3.2-1B"))
 
 
 DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
