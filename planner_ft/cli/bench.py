@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.cli.options import command, given, typed
@@ -56,18 +57,7 @@ def bench(**options: Any) -> None:
 
 
 @command
-def score(
-    level: str | None = None,
-    predictions: Path | None = None,
-    run: Path | None = None,
-    data: Path | None = None,
-    out: Path | None = None,
-    limit: int | None = None,
-    name: str | None = None,
-    vocabulary: str = "usv",
-    seed: int = 0,
-    overwrite: bool = False,
-) -> None:
+def score(**options: Any) -> None:
     """Score any system's outputs, or a bench run again."""
     from planner_ft.benchmark import folder
     from planner_ft.benchmark.samples import default_data, load_bench_data
@@ -75,23 +65,24 @@ def score(
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
-    with alone(out, "--out", "a benchmark"):
-        if out is not None:
-            folder.check_folder(out, () if overwrite else folder.SCORED, OUTPUT)
-        if run is not None and predictions is None and level is None:
-            results = score_run(run, data, seed=seed)
-        elif level is not None and predictions is not None and run is None:
-            checked, definition = check_level(level), load_vocabulary(vocabulary)
-            samples = load_bench_data(
-                data or default_data(checked, definition), checked, definition, limit
-            )
-            results = score_predictions(predictions, samples, definition, seed=seed, name=name)
+    o = SimpleNamespace(**options)
+    with alone(o.out, "--out", "a benchmark"):
+        if o.out is not None:
+            folder.check_folder(o.out, () if o.overwrite else folder.SCORED, OUTPUT)
+        if o.run is not None and o.predictions is None and o.level is None:
+            results = score_run(o.run, o.data, seed=o.seed)
+        elif o.level is not None and o.predictions is not None and o.run is None:
+            level, vocabulary = check_level(o.level), load_vocabulary(o.vocabulary)
+            data = o.data or default_data(level, vocabulary)
+            samples = load_bench_data(data, level, vocabulary, o.limit)
+            named = {"seed": o.seed, "name": o.name}
+            results = score_predictions(o.predictions, samples, vocabulary, **named)
         else:
             ways = "score needs either --level and --predictions, or --run alone"
             raise PlannerError(f"{ways}; try: plannerft score --run eval/runs/mission")
-        if out is not None:
-            folder.write_results(out, results)
-    _show(results, out)
+        if o.out is not None:
+            folder.write_results(o.out, results)
+    _show(results, o.out)
 
 
 def _batch_size(text: str) -> int | None:

@@ -6,6 +6,7 @@ import inspect
 import shlex
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -132,42 +133,29 @@ NAMED = ("level", "candidate", "vocabulary", "data_dir")
 
 @with_settings("seed", "max_samples", "keep_checkpoints")
 @command
-def learning_curve(
-    level: str | None = None,
-    candidate: str | None = None,
-    sizes: str | None = None,
-    seeds: int = 3,
-    strength: str = "schema",
-    vocabulary: str | None = None,
-    data_dir: str | None = None,
-    data: Path | None = None,
-    limit: int | None = None,
-    out: Path = Path("eval/runs/learning-curve"),
-    resume: bool = False,
-    overwrite: bool = False,
-    **settings: Any,
-) -> None:
+def learning_curve(**options: Any) -> None:
     """Train on growing parts of the training set and benchmark each."""
     from planner_ft.benchmark.curve.points import SAMPLES, write_curve
     from planner_ft.benchmark.curve.units import begin, prepare, run_units
     from planner_ft.report.pictures import write_figure
     from planner_ft.training.request import build_request
 
-    if resume and overwrite:
+    o = SimpleNamespace(**options)
+    if o.resume and o.overwrite:
         raise PlannerError("--overwrite and --resume exclude each other")
-    flags = given(settings, *settings)
-    request = build_request(given(locals(), *NAMED), flags)
-    curve = prepare(request, out, _sizes(sizes), seeds, strength, data, limit, flags)
-    with alone(out, "--out", "a learning curve"):
-        begin(curve, resume=resume, overwrite=overwrite)
+    flags = given(options, *(name for name in FIELDS if name in options))
+    request = build_request(given(options, *NAMED), flags)
+    how = o.seeds, o.strength, o.data, o.limit
+    curve = prepare(request, o.out, _sizes(o.sizes), *how, flags)
+    with alone(o.out, "--out", "a learning curve"):
+        begin(curve, resume=o.resume, overwrite=o.overwrite)
         with status(lambda: f"go on with: {resume_command()}") as state:
             run_units(curve, state)
             state(0, "tables and figure")
-            write_figure(write_curve(curve), SAMPLES[request.level], out)
-    show((out / "table.md").read_text(encoding="utf-8"))
-    show(
-        f"{out}/: table.md, table.csv, learning_curve.json, learning-curve.png, learning-curve.svg"
-    )
+            write_figure(write_curve(curve), SAMPLES[request.level], o.out)
+    show((o.out / "table.md").read_text(encoding="utf-8"))
+    figures = "learning-curve.png, learning-curve.svg"
+    show(f"{o.out}/: table.md, table.csv, learning_curve.json, {figures}")
 
 
 def _sizes(text: str | None) -> tuple[int, ...] | None:
@@ -181,32 +169,15 @@ SHOWN = {"plan": "plans", "entry": "tasks or skills", "value": "values"}
 
 
 @command
-def calibrate(
-    data: list[Path],
-    level: str = "mission",
-    candidate: str = "embedded",
-    configuration: str | None = None,
-    adapter: Path | None = None,
-    vocabulary: str = "usv",
-    device: str = "auto",
-    quantization: str | None = None,
-    out: Path = Path("eval/runs/calibration"),
-) -> None:
+def calibrate(data: list[Path], **options: Any) -> None:
     """Calibrate a candidate's confidence."""
     from planner_ft.benchmark.calibrate import calibrate as run
     from planner_ft.vocabulary.plans import check_level
 
-    checked = check_level(level)
-    named = {
-        "candidate": candidate,
-        "vocabulary": vocabulary,
-        "device": device,
-        "quantization": quantization,
-        f"{checked}_configuration": configuration,
-        f"{checked}_adapter": adapter,
-    }
+    checked, out = check_level(options.pop("level")), options.pop("out")
+    own = {f"{checked}_{name}": options.pop(name) for name in ("configuration", "adapter")}
     with alone(out, "--out", "a calibration"), interruptible() as report:
-        path, manifest = run(checked, data, out, report, **named)
+        path, manifest = run(checked, data, out, report, **options, **own)
     for kind, found in manifest["held_out"].items():
         right = f"{found['n'] - found['wrong']} of {found['n']} {SHOWN[kind]} right"
         area = f"area under risk-coverage {found['aurc']:.4f}, random {found['aurc_random']:.4f}"
