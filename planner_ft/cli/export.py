@@ -25,7 +25,7 @@ def export(context: typer.Context, plan: Path | None = None, **options: Any) -> 
     if plan is not None:
         _export_plan(plan, {**given, **shared})
         return
-    from planner_ft.model_export.settings import ExportSettings
+    from planner_ft.model_export import ExportSettings
     from planner_ft.vocabulary.plans import check_level
 
     if options["out"] is None:
