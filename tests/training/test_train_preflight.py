@@ -144,8 +144,8 @@ def test_special_tokens_in_wrong_places_are_found(ids, prompt, part):
 def test_an_answer_without_trained_tokens_is_named(ask, monkeypatch):
     original = Split.rendered
 
-    def unmasked(split, tokenizer):
-        result = original(split, tokenizer)
+    def unmasked(split, tokenizer, **shown):
+        result = original(split, tokenizer, **shown)
         first = result.samples[0].rendered
         blank = Rendered(first.input_ids, [0] * len(first.input_ids), first.prompt_length)
         return dataclasses.replace(result, samples=[Sample("blank", blank)])
