@@ -204,11 +204,6 @@ class Results:
         """Figures per group of the test data."""
         return self.recorded.get("groups") or summary.group_figures(self.scores)
 
-    def row(self, candidate: str, configuration: str) -> Row:
-        """The row of a candidate and configuration."""
-        wanted = system_key((candidate, configuration))
-        return next(row for row in self.rows if row.key == wanted)
-
 
 @dataclass(frozen=True)
 class Measured:
