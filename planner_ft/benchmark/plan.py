@@ -233,8 +233,7 @@ def _job(
 ) -> Job:
     folder = loading.require_folder(candidate)
     used = adapter if configuration.adapter else None
-    default = candidate.adapter_defaults(settings.level, vocabulary).quantization
-    quantization = settings.quantization or default or "nf4"
+    quantization = candidate.stored_as(settings.level, vocabulary, settings.quantization)
     with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, used)
     parts = {
         "model": weights_sha256(folder),

@@ -131,7 +131,7 @@ def memory_summary(candidate: Candidate) -> dict[str, Any] | None:
     dimensions = candidate.dimensions
     if dimensions is None:
         return None
-    rank = max([RANK, *(settings.rank or 0 for settings in candidate.adapter.values())])
+    rank = max([RANK, *(settings.get("rank", 0) for settings in candidate.adapter.values())])
     train = training_memory(dimensions, rank=rank)
     saving = training_memory(dimensions, rank=rank, checkpointing=True)
     infer = inference_memory(dimensions, rank=rank)

@@ -133,6 +133,5 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
             f" name one with --{level}-adapter, or give --configuration {without}"
         )
     with_vocabulary = prompt_has_vocabulary(candidate, vocabulary, adapter)
-    default = candidate.adapter_defaults(level, vocabulary).quantization
-    quantization = settings.quantization or default or "nf4"
+    quantization = candidate.stored_as(level, vocabulary, settings.quantization)
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -125,7 +125,7 @@ def build_request(
     if candidate and level and vocabulary:
         own = candidate.vocabulary is None or candidate.knows(vocabulary)
         label = candidate.name if own else f"{candidate.name} for another vocabulary"
-        sources.append(Source(label, asdict(candidate.adapter_defaults(level, vocabulary))))
+        sources.append(Source(label, candidate.adapter_defaults(level, vocabulary)))
     resolved = resolve_settings(level or "mission", sources, problems)
     if resolved.settings.select == "f1" and not resolved.settings.validation_answers:
         problems.append("--select f1 needs --validation-answers of at least 1")
