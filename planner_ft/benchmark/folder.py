@@ -194,9 +194,8 @@ def measured_in(
     """A run's systems, or those of these jobs, with all their lines, read without locking."""
     logs = [records_by_key(folder / name) for name in (PREDICTIONS, LATENCY)]
     planned, found = records_by_key(folder / PLANNING), []
-    for name, system in record.systems.items():
-        if names is not None and name not in names:
-            continue
+    for name in record.systems if names is None else names:
+        system = record.systems[name]
         costs = record.costs.get(system.candidate, {})
         planning = costs.get("planning_keys", {}).get(system.configuration)
         answers, timed = (log.get(record.keys[name], {}) for log in logs)
