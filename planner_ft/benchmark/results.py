@@ -207,9 +207,7 @@ class Results:
 
 @dataclass(frozen=True)
 class Measured:
-    """One system with its answers and timed queries, both by sample id. `costs` are the figures of
-    run.json on its candidate, `planning` its lines of planning.jsonl.
-    """
+    """A system with answers and timed queries by sample id, its costs and planning times."""
 
     system: System
     predictions: Lines

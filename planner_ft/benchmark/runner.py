@@ -1,6 +1,4 @@
-"""Running the benchmark: answers and timed queries that are missing are made, then all scored;
-several processes may share a run, as `accelerate launch` or torchrun starts them.
-"""
+"""Missing answers and timed queries are made, by processes that share a run, and all scored."""
 
 from __future__ import annotations
 

@@ -167,9 +167,7 @@ def read_toml(path: Path | str) -> dict[str, Any]:
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:
-    """(line number, value, None) or (line number, None, problem) of every line that is not blank.
-    Raises PlannerError when the file is missing, unreadable or not UTF-8.
-    """
+    """(line number, value, None or problem) of every line not blank. Raises PlannerError."""
     # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON strings may hold.
     for number, line in enumerate(read_text(path).split("\n"), 1):
         if line.strip():

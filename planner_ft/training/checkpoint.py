@@ -73,9 +73,7 @@ class TrainState:
 
 @dataclass
 class Run:
-    """A model in training. `pad` is the id that fills batches; layers compute in `dtype`. `best` is
-    the best adapter so far, None for the current one.
-    """
+    """A model in training; `pad` fills batches, layers compute in `dtype`, `best`: None if last."""
 
     settings: TrainSettings
     model: Any
@@ -134,9 +132,7 @@ def save_checkpoint(run: Run) -> None:
 
 
 def load_newest_checkpoint(run: Run) -> str:
-    """Go back to the newest whole checkpoint; return a sentence on it. Raises PlannerError when
-    there are only damaged ones.
-    """
+    """Go back to the newest whole checkpoint and say so. Raises PlannerError without one."""
     for path in (run.output / CHECKPOINTS).glob(f".{PREFIX}*.tmp"):
         shutil.rmtree(path, ignore_errors=True)
     damaged: dict[Path, Exception] = {}

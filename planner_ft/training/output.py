@@ -71,9 +71,7 @@ def folder_problem(output: Path, *, overwrite: bool, resume: bool) -> str | None
 
 
 def begin(output: Path, fingerprint: Values) -> None:
-    """Record a new run and remove the files of an earlier one, in this order: a run that is killed
-    meanwhile leaves a folder that --resume starts again.
-    """
+    """Record a new run, then remove an earlier one's files: a kill leaves what resumes."""
     for path in (output / CHECKPOINTS).glob(f"{PREFIX}*"):
         shutil.rmtree(path)
     write_run(output, fingerprint, "running")

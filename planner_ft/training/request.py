@@ -48,9 +48,7 @@ class TrainRequest:
     def fingerprint(
         self, training: str, validation: str | None, base_weights: str
     ) -> dict[str, Any]:
-        """Everything that the learned weights depend on, with the digests of data and base. A
-        resumed run must have the same.
-        """
+        """All that the learned weights depend on, with digests; a resumed run has the same."""
         return {
             "level": self.level,
             "candidate": self.candidate.name,

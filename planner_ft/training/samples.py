@@ -88,9 +88,7 @@ class Split:
         return replace(self, sha256=both, records=[*self.records, *records])
 
     def corrected(self, path: Path, problems: list[str]) -> Split:
-        """With the records of `path`, as `plannerft review --harvest` writes them; everything wrong
-        with it is added to `problems`.
-        """
+        """With the records of `path` (`review --harvest`); its faults are added to `problems`."""
         added = read_split(path, self.level, self.vocabulary, problems, known=self)
         return self._extended(added.records, added.sha256) if added else self
 

@@ -126,9 +126,7 @@ def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
 
 
 def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
-    """Train and benchmark every unit that is not finished, each step in a process of its own.
-    Raises IncompleteError when one fails: what is finished is kept.
-    """
+    """Train and benchmark missing units, a process a step. Raises IncompleteError: go on later."""
     units, begun = curve.units, time.monotonic()
     open_units = (unit for unit in units if not (curve.folder(unit) / DONE).is_file())
     left = {unit: _work(curve, unit) for unit in open_units}

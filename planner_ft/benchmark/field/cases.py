@@ -33,9 +33,7 @@ Find = Callable[[Any, Vocabulary], str | None]
 
 @dataclass(frozen=True)
 class Case:
-    """A command with positions of its places (metres) and an origin (degrees), and its checks. A
-    `danger`ous case that fails without any warning is counted apart.
-    """
+    """A command with places (metres), origin (degrees) and checks; silent `danger` counts apart."""
 
     id: str
     kind: str

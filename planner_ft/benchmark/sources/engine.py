@@ -1,6 +1,4 @@
-"""Answers of a candidate that is loaded here; batches by length, whose size finds itself: doubled
-until memory runs out, and halved then.
-"""
+"""Answers of a candidate that is loaded here; batches by length, whose size finds itself."""
 
 from __future__ import annotations
 
