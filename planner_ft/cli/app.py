@@ -14,6 +14,7 @@ from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
 from planner_ft.cli.review import review, verify
 from planner_ft.cli.simulate import simulate
+from planner_ft.cli.skill import skill
 from planner_ft.cli.train import calibrate, learning_curve, train
 from planner_ft.support.terminal import show
 
@@ -50,7 +51,7 @@ def options(version: Annotated[bool, VERSION] = False) -> None:
     """Options of every command."""
 
 
-PLANS = (plan, review, verify, simulate, gen_data, validate)
+PLANS = (plan, review, verify, simulate, skill, gen_data, validate)
 MEASURING = (candidates, train, calibrate, bench, score, compare, learning_curve, report)
 for command in (*PLANS, *MEASURING, export, vocabulary, vehicle, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

@@ -95,11 +95,12 @@ def results_json(done: Simulated) -> dict[str, Any]:
 def manifest(done: Simulated) -> dict[str, Any]:
     """What the results depend on."""
     settings, vocabulary = done.settings, done.plan.vocabulary
-    names = ("runs", "simulator", "tolerance", "draft", "mcap")
+    names = ("runs", "simulator", "tolerance", "draft", "mcap", "goto", "survey")
     configuration = {
         **{name: getattr(settings, name) for name in names},
         "starts": [list(start) for start in settings.starts],
         "locations": {name: list(place) for name, place in settings.locations.items()},
+        "outlines": {name: one.tolist() for name, one in settings.outlines.items()},
         "faults": [fault.text for fault in settings.faults.all],
         "origin": asdict(done.plan.origin) if done.plan.origin else None,
         "vessel": asdict(done.scene.vessel),
