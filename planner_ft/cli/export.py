@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import typer
 
 from planner_ft.cli.options import command, typed
-from planner_ft.support.errors import PlannerError
+from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.terminal import show
 
-PLAN_FLAGS = ("format", "origin", "log", "draft")
+PLAN_FLAGS = ("format", "origin", "log", "draft", "origin_is_right")
 MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "checks", "check_data")
 
 
@@ -26,6 +28,7 @@ def export(
     out: Path | None = None,
     vocabulary: str = "usv",
     overwrite: bool = False,
+    origin_is_right: bool = False,
     candidate: str | None = None,
     merge: bool = False,
     level: str = "mission",
@@ -40,7 +43,8 @@ def export(
     _check_kind(plan, given)
     if plan is not None:
         named = vocabulary if "vocabulary" in given else None
-        _export_plan(plan, tuple(format or ()), origin, out, log, draft, named, overwrite)
+        settings = out, log, draft, named, overwrite, origin_is_right
+        _export_plan(plan, tuple(format or ()), origin, *settings)
         return
     from planner_ft.model_export.settings import ExportSettings
     from planner_ft.vocabulary.plans import check_level
@@ -79,7 +83,15 @@ def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *sett
     from planner_ft.exporters import parse_origin, run
 
     place = parse_origin(origin) if origin is not None else None
-    done = run.export_plan(run.PlanExportSettings(plan, formats, place, *settings))
+    asked = run.PlanExportSettings(plan, formats, place, *settings)
+    try:
+        done = run.export_plan(asked)
+    except QuestionError as error:
+        if not (sys.stdin.isatty() and sys.stdout.isatty()):
+            raise
+        if not typer.confirm(error.question):
+            raise PlannerError("nothing was written; give the right --origin LAT,LON") from None
+        done = run.export_plan(replace(asked, sure=True))
     for one in done:
         show(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
         for line in run.loss_lines(one.account):

@@ -91,6 +91,7 @@ def _review(options: dict[str, Any]) -> None:
 
 
 def _serve(options: dict[str, Any]) -> None:
+    from planner_ft.exporters import page as exporting
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.support.geodesy import parse_origin
@@ -104,6 +105,7 @@ def _serve(options: dict[str, Any]) -> None:
     given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
     if options["origin"] is not None:
         given["origin"] = parse_origin(options["origin"])
+    given |= {"reviewer": options["name"] or "", "exporting": exporting}
     serve(plan, WebSettings(planning=planning, open_browser=not options["no_browser"], **given))
 
 
