@@ -150,6 +150,11 @@ def _fences(document: Document, vocabulary: Vocabulary) -> Iterator[Fence]:
         if limit["kind"] in ("fence", "keep_out_area"):
             corners = tuple((float(x), float(y)) for x, y in limit["values"]["polygon"])
             yield Fence(corners, limit["kind"] == "fence", limit["text"])
+        elif limit["kind"] == "distance":
+            (x, y), far = vocabulary.home, limit["values"]["distance"]
+            angles = [math.radians(5 * number) for number in range(72)]
+            ring = tuple((x + far * math.sin(one), y + far * math.cos(one)) for one in angles)
+            yield Fence(ring, True, limit["text"])
 
 
 def overview_lines(document: Document, made: Brief) -> Iterator[str]:

@@ -14,14 +14,14 @@ from planner_ft.review.desk import Desk
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 
-PLAN = ("document", "path", "revision", "track", "brief", "tampered")
+PLAN = ("document", "path", "revision", "track", "brief", "tampered", "warnings")
 """Keys of the state that are None without a plan."""
 State = dict[str, Any]
 
 
 def plan_state(desk: Desk | None) -> State:
     """The plan on a desk: document, track, brief, what was changed outside of the review (None:
-    nothing), differences from the proposal, and the decision about it.
+    nothing), warnings with severity and name, differences from the proposal, and the decision.
     """
     if desk is None:
         approval = _undecided("there is no plan yet")
@@ -36,8 +36,8 @@ def plan_state(desk: Desk | None) -> State:
     short = brief(document, course, desk.vocabulary).as_json()
     foreign = tampered(document, desk.vocabulary)
     found = None if foreign is None else [one.text for one in foreign]
-    shown = {**document, "warnings": _named(document)}
-    values = (shown, desk.path.name, desk.revision, course.as_json(), short, found)
+    about = desk.path.name, desk.revision, course.as_json(), short, found, _named(document)
+    values = (document, *about)
     changed = [difference.as_json() for difference in differences(document)]
     return {**dict(zip(PLAN, values, strict=True)), "differences": changed, "approval": approval}
 

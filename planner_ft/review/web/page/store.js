@@ -201,7 +201,7 @@ export class Store {
   }
 
   get warnings() {
-    return this.plan?.document?.warnings || [];
+    return this.plan?.warnings || [];
   }
 
   isAcknowledged(warning) {

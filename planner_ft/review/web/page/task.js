@@ -109,7 +109,7 @@ function Source({ store, task, name, source, known }) {
     return html`<span class="source of-operator">changed by <bdi>${change?.by || "somebody without a name"}</bdi>; ${was}</span>`;
   }
   if (source.kind === "located" && source.note) return html`<span class="source of-located">${source.note.replace("resolved location", "place of")}</span>`;
-  return html`<span class=${`source of-${source.kind}`} title=${source.note || ""}>${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note ? `: ${source.note}` : ""}</span>`;
+  return html`<span class=${`source of-${source.kind}`} title=${source.note || ""}>${KINDS[source.kind] || source.kind}${words && html` <q>${words}</q>`}${!words && source.note ? `: ${source.note.replace("unresolved location: ", "")}` : ""}</span>`;
 }
 
 function Parameter({ store, task, name, value, known, label }) {

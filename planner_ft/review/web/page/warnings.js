@@ -14,7 +14,7 @@ export function Warnings({ store }) {
     <h2 id="warnings-title">${title}</h2>
     ${!document.valid && html`<p class="refusal">An agent's answer is not valid, so this plan cannot be approved as it is.</p>`}
     ${store.warnings.length === 0 && html`<p class="soft">The checks found nothing. They do not replace reading the plan.</p>`}
-    <${Questions} store=${store} />
+    ${!store.plan.tampered && html`<${Questions} store=${store} />`}
     ${SEVERITIES.map(([severity, one]) => of(store, severity).length > 0 && html`<h3 key=${severity} class=${severity}>${count(of(store, severity).length, one)}</h3>
       <ul>${of(store, severity).map((warning) => html`<${Warning} key=${warning.id} store=${store} warning=${warning} />`)}</ul>`)}
     ${notes.length > 1 && html`<p><button onClick=${() => notes.forEach((warning) => store.acknowledge(warning, true))}>Acknowledge all notes</button></p>`}
