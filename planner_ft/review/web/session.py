@@ -22,6 +22,7 @@ from planner_ft.review.log import log_beside
 from planner_ft.review.store import ChangedError, add_plan, plan_names, signature
 from planner_ft.review.web.events import Events
 from planner_ft.review.web.planning import Planning
+from planner_ft.review.web.run import Runner, Runs
 from planner_ft.review.web.state import State, plan_state, vocabulary_json
 from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.geodesy import Origin
@@ -67,6 +68,7 @@ class WebSettings:
     planning: PlanSettings = field(default_factory=PlanSettings)
     origin: Origin | None = None
     exporting: Exporting | None = None
+    runner: Runner | None = None
 
     def __post_init__(self) -> None:
         """Raise PlannerError for a port that does not exist."""
@@ -113,6 +115,7 @@ class Session:
         self.exporting = settings.exporting
         self.events = Events()
         self.planning = Planning(settings.planning, self.events, self.tell_state)
+        self.runs = Runs(settings.runner, self.log, vocabulary.source, self.events, self.tell_state)
         self._known: Any = self._signature()
         self._shown: tuple[Any, State] = (None, {})
 
@@ -129,6 +132,7 @@ class Session:
             "formats": self.exporting.formats() if self.exporting else [],
             "reviewer": self.reviewer,
             "plans": plan_names(self.folder),
+            "run": self.runs.as_json(),
         }
 
     def look(self) -> None:
@@ -179,6 +183,16 @@ class Session:
         desk = self._desk(revision)
         flags = {"overwrite": overwrite, "sure": sure}
         return self.exporting.hand_over(desk.path, desk.log, formats, origin, **flags)
+
+    def run(self, revision: str, name: str, speed: float) -> State:
+        """Carry the approved plan out, watched by the pages."""
+        self.runs.begin(self._desk(revision), name, speed)
+        return self.state()
+
+    def abort(self, name: str) -> State:
+        """Stop the run at once."""
+        self.runs.abort(name)
+        return self.state()
 
     def open(self, name: str) -> State:
         """Show another plan of the folder. Raises PlannerError."""

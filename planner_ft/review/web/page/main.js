@@ -8,6 +8,7 @@ import { Changes } from "./changes.js";
 import { Facts, Provenance } from "./facts.js";
 import { Header, Messages } from "./header.js";
 import { Help, shortcut } from "./help.js";
+import { Run } from "./run.js";
 import { Store } from "./store.js";
 import { Tasks } from "./tasks.js";
 import { html, render, useEffect, useReducer, useState } from "./vendor.js";
@@ -38,7 +39,7 @@ function Page() {
           <main class="plan">
             <${Tasks} key=${`tasks ${plan.path}`} store=${store} show=${show} />
             <div class="column told" key=${plan.path}>
-              ${/* What can be done with an approved plan (beside the export) stands here. */ plan.approval.status === "approved" && html`<div id="after-approval"></div>`}
+              <${Run} store=${store} />
               <${Warnings} store=${store} />
               <${Facts} store=${store} />
               <${Command} store=${store} />

@@ -2,6 +2,7 @@
 
 import { Refused, get, listen, post } from "./api.js";
 import { same } from "./format.js";
+import { watched } from "./run.js";
 
 const NAMELESS = "Nothing was changed: a change needs the name of who makes it.";
 const NOTHING_PLANNED = { tasks: null, skills: {} };
@@ -22,6 +23,7 @@ export class Store {
     this.draft = NOTHING_PLANNED; // what the agents have answered so far while they plan
     this.connected = true;
     this.placing = null; // the name of the place that is being put on the chart
+    this.watch = null; // the run that is shown: {frames, at (null: the last frame), folder}
     this.sent = 0;
     this.shown = 0;
     this.changing = 0; // own changes that are not answered yet
@@ -39,6 +41,7 @@ export class Store {
         progress: (busy) => this.plan && this.set({ plan: { ...this.plan, busy } }),
         tasks: ({ tasks }) => this.set({ draft: { tasks, skills: {} }, notice: `The Mission Agent answered: ${tasks.length} tasks.` }),
         skills: ({ task, skill_sequence }) => this.set({ draft: { ...this.draft, skills: { ...this.draft.skills, [task]: skill_sequence || [] } } }),
+        run: (frame) => watched(this, frame),
         state: () => this.refresh(),
         error: ({ error }) => this.set({ alert: error, draft: NOTHING_PLANNED }) || this.refresh(),
       },
@@ -158,7 +161,7 @@ export class Store {
   /** Has a command planned. Returns null, or what was refused: {error, question?}. */
   async command(text, sure) {
     this.set({ draft: NOTHING_PLANNED });
-    return this.ask("/api/plan", { command: text, sure }, "The agents are planning.");
+    return this.asked("/api/plan", { command: text, sure }, "The agents are planning.");
   }
 
   /** Writes the approved plan for vehicles: {files}, or {error, question?}. */
@@ -174,10 +177,15 @@ export class Store {
   }
 
   open(path) {
-    return this.ask("/api/open", { path }, "").then((refused) => refused && this.set({ alert: refused.error }));
+    return this.ask("/api/open", { path }, "").then((refused) => refused && this.set({ alert: refused }));
   }
 
+  /** As `asked`; returns null, or the sentence that says why it was refused. */
   async ask(path, body, done) {
+    return (await this.asked(path, body, done))?.error ?? null;
+  }
+
+  async asked(path, body, done) {
     const asked = ++this.sent;
     this.set({ alert: null }); // now: agents may fail before the answer comes
     try {
