@@ -14,6 +14,7 @@ from planner_ft.cli.curve import learning_curve
 from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
 from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
+from planner_ft.cli.push import push
 from planner_ft.cli.review import review, verify
 from planner_ft.cli.simulate import simulate
 from planner_ft.cli.train import train
@@ -63,6 +64,7 @@ for command in (
     validate,
     *MEASURING,
     export,
+    push,
     vocabulary,
     vehicle,
     doctor,

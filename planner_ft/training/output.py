@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import torch
 
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, SEEN, WEIGHTS, adapter_record
+from planner_ft.candidates.registry import model_metadata
 from planner_ft.prompts.render import prompt_frame, save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_file, write_json, write_text
@@ -35,8 +36,6 @@ TOKENIZER = (
 )
 WRITTEN = f"{CONFIG} {WEIGHTS} README.md {MANIFEST} {SEEN} {LOG} loss.png loss.svg {TOKENIZER}"
 """All files that a run writes; --overwrite removes them and the folders of checkpoints and logs."""
-LICENCES = {"Apache-2.0": "apache-2.0"}
-"""Licences with an identifier of the Hub; model cards name others in full."""
 PROBLEMS = {
     "foreign": "exists and is no folder of a training run; give another folder",
     "complete": "holds a finished adapter; give --overwrite to train it again, or another folder",
@@ -229,6 +228,7 @@ def model_card(manifest: Values) -> str:
         undefined=jinja2.StrictUndefined,
     )
     environment.filters |= {"json": json.dumps, "name": lambda path: Path(path).name}
-    values = {"s": manifest["configuration"], "r": manifest["result"], "licences": LICENCES}
+    values = {"s": manifest["configuration"], "r": manifest["result"]}
+    values["metadata"] = model_metadata(manifest, "peft")
     card = read_text(Path(__file__).parent / "card.md.jinja")
     return environment.from_string(card).render(m=manifest, **values)
