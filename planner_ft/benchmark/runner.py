@@ -7,20 +7,20 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import time_planning
-from planner_ft.benchmark.ranks import ALONE, Ranks
 from planner_ft.benchmark.records import Line, RecordLog, add_costs, begin_run, measured, read_run
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import AnswerSource, Fields, open_source
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.vocabulary.outputs import parse_output
 
 Progress = Callable[[str, int, int], None]
@@ -84,7 +84,7 @@ def run_bench(
     out = settings.folder
     hint = "give --resume to go on, --overwrite to start anew, or another --out"
     folder.check_folder(out, () if settings.resume or settings.overwrite else folder.ALL, hint)
-    plan = make_plan(ranks.settings(settings))
+    plan = make_plan(replace(settings, device=ranks.device(settings.device)))
     started = time.time()
     if settings.overwrite:
         folder.clear(out)
@@ -128,7 +128,7 @@ def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
     """Make this process's share of the answers of a run that another process leads. Raises
     PlannerError.
     """
-    plan = make_plan(ranks.settings(settings))
+    plan = make_plan(replace(settings, device=ranks.device(settings.device)))
     # The first process has refused or cleared the folder before anybody goes on.
     ranks.wait()
     with RecordLog(settings.folder / folder.PREDICTIONS) as predictions:

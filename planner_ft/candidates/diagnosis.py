@@ -25,6 +25,7 @@ from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_ca
 from planner_ft.candidates.memory import GIB, device_memory, memory_summary
 from planner_ft.candidates.packing import set_packing
 from planner_ft.candidates.registry import Candidate, all_candidates
+from planner_ft.candidates.times import expected_times
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.manifest import hardware, library_versions, source_commit
@@ -53,7 +54,7 @@ Found = dict[str, Any]
 def describe(candidate: Candidate) -> Found:
     """One row of `plannerft candidates` as JSON values.
 
-    `memory` is in GiB, None where the dimensions are unknown. `here` is true when the files are
+    `memory` is in GiB, `times` in seconds, both estimates and None where the dimensions are unknown. `here` is true when the files are
     complete; else `problem` or `get` says the way out, and `command` downloads it.
     """
     missing, problem = candidate.folder is None, None
@@ -67,6 +68,7 @@ def describe(candidate: Candidate) -> Found:
         "row": candidate.row_name,
         "standin": candidate.is_standin,
         "memory": memory_summary(candidate),
+        "times": expected_times(candidate),
         "here": not missing and problem is None,
         "folder": None if missing else str(candidate.folder),
         "source": candidate.source,

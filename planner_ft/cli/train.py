@@ -11,6 +11,7 @@ import typer
 
 from planner_ft.cli.options import command, set_parameters
 from planner_ft.cli.progress import resume_command
+from planner_ft.support.ranks import Ranks, join_ranks
 from planner_ft.support.terminal import terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 from planner_ft.vocabulary.definition import DEFAULT
@@ -74,24 +75,29 @@ def train(
 
     from planner_ft.training.request import RUN_KEYS, build_request
 
-    options = locals()
+    options, ranks = locals(), join_ranks()
     names = {name: options[name] for name in RUN_KEYS}
-    request = build_request(names, settings, recipe=recipe, overwrite=overwrite, resume=resume)
+    with ranks.one_voice():
+        request = build_request(
+            names, settings, recipe=recipe, overwrite=overwrite, resume=resume, ranks=ranks
+        )
     console = terminal(soft_wrap=True)
-    if preview or preview_id:
+    if not (preview or preview_id):
+        _train(request, console, ranks)
+    elif ranks.leads:
         _preview(request, preview_id, console)
-    else:
-        _train(request, console)
 
 
-def _train(request: Any, console: Console) -> None:
+def _train(request: Any, console: Console, ranks: Ranks) -> None:
     from planner_ft.benchmark.judge import Judge
     from planner_ft.training.loop import InterruptedRunError
     from planner_ft.training.run import train as run_training
 
     try:
-        manifest = run_training(request, console, Judge)
+        manifest = run_training(request, console, Judge, ranks)
     except InterruptedRunError as stop:
+        if not ranks.leads:
+            raise typer.Exit(128 + stop.signal_number) from None
         done = f"stopped at step {stop.step} of {stop.total}, all saved"
         console.print(f"{done}; continue with:\n  {resume_command()}", markup=False)
         raise typer.Exit(128 + stop.signal_number) from None

@@ -36,6 +36,8 @@ TOKENIZER = (
 )
 WRITTEN = f"{CONFIG} {WEIGHTS} README.md {MANIFEST} {SEEN} {LOG} loss.png loss.svg {TOKENIZER}"
 """All files that a run writes; --overwrite removes them and the folders of checkpoints and logs."""
+BEFORE = {"processes": 1}
+"""What the records of earlier versions do not name."""
 PROBLEMS = {
     "foreign": "exists and is no folder of a training run; give another folder",
     "complete": "holds a finished adapter; give --overwrite to train it again, or another folder",
@@ -106,7 +108,7 @@ def differing(stored: Values, current: Values) -> list[str]:
     """Sentences on everything that differs from the run that is to be resumed."""
     problems = []
     for key, now in current.items():
-        before, name = stored.get(key), key.replace("_", " ")
+        before, name = stored.get(key, BEFORE.get(key)), key.replace("_", " ")
         if key == "settings" and isinstance(before, dict):
             problems += [
                 f"--{setting.replace('_', '-')} was {before.get(setting)} and is {value}"
@@ -177,7 +179,8 @@ def run_manifest(
         base_reference=candidate.reference,
         licence=candidate.licence,
         samples={role: len(split.samples) for role, split in splits.items() if split},
-        departures=[*request.resolved.departures(request.level), *tests_warnings(prepared.tests)],
+        processes=request.processes,
+        departures=[*request.departures(), *tests_warnings(prepared.tests)],
         tests_trained_on=prepared.tests,
         result=_result(run, output / WEIGHTS),
         prompt={"before": before, "after": after},
