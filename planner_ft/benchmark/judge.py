@@ -48,7 +48,8 @@ class Judge:
     def answers(self, *, adapter: bool) -> list[Answer]:
         """The scores of the answers; those of the base are prompted as a benchmark prompts it."""
         model, level, vocabulary = self.run.model, self.request.level, self.request.vocabulary
-        told = not adapter and not self.request.candidate.knows(vocabulary)
+        trained = self.request.settings.vocabulary_in_prompt
+        told = trained if adapter else not self.request.candidate.knows(vocabulary)
         queries = [
             Query(
                 level,

@@ -19,6 +19,7 @@ from planner_ft.candidates.adapters import (
     adapter_folder,
     check_adapter,
     find_adapter,
+    prompt_has_vocabulary,
     seen_in_training,
 )
 from planner_ft.candidates.loading import (
@@ -259,8 +260,7 @@ def _job(
     folder = require_folder(candidate)
     used = adapter if configuration.adapter else None
     pretrained = candidate.knows(vocabulary)
-    # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
-    with_vocabulary = not configuration.adapter and not pretrained
+    with_vocabulary = prompt_has_vocabulary(candidate, vocabulary, used)
     default = candidate.adapter_defaults(settings.level, vocabulary).quantization
     quantization = settings.quantization or default or "nf4"
     parts = {

@@ -67,6 +67,17 @@ def find_adapter(
     return None
 
 
+def prompt_has_vocabulary(
+    candidate: Candidate, vocabulary: Vocabulary, adapter: Path | None
+) -> bool:
+    """Whether a model is shown the vocabulary: without an adapter where it was not pretrained on
+    it, with one where the adapter was trained so.
+    """
+    if adapter is None:
+        return not candidate.knows(vocabulary)
+    return bool(_manifest(adapter).get("configuration", {}).get("vocabulary_in_prompt"))
+
+
 def seen_in_training(folder: Path) -> set[str]:
     """SHA-256 of an adapter's data files and the digests of their inputs, as far as it says."""
     inputs = _manifest(folder).get("inputs", {})

@@ -102,6 +102,7 @@ class AdapterDefaults:
     batch_size: int | None = None
     quantization: Quantization | None = None
     vary: int | None = None
+    vocabulary_in_prompt: bool | None = None
 
 
 @dataclass(frozen=True)

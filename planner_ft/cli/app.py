@@ -17,6 +17,7 @@ from planner_ft.cli.plan import plan
 from planner_ft.cli.push import push
 from planner_ft.cli.review import review, verify
 from planner_ft.cli.simulate import simulate
+from planner_ft.cli.skill import skill
 from planner_ft.cli.train import train
 from planner_ft.support.terminal import show
 
@@ -60,6 +61,7 @@ for command in (
     review,
     verify,
     simulate,
+    skill,
     gen_data,
     validate,
     *MEASURING,

@@ -81,7 +81,8 @@ class _Work:
             import_gguf()
             check_architecture(folder)
         _check_out(settings)
-        self.with_vocabulary = not (self.adapter or self.candidate.knows(self.vocabulary))
+        known_so = self.candidate, self.vocabulary, self.adapter
+        self.with_vocabulary = adapters.prompt_has_vocabulary(*known_so)
         counted = settings.checks, settings.data
         self.records = checks.check_records(self.level, self.vocabulary, *counted)
 

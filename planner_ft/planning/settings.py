@@ -7,7 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter, find_adapter
+from planner_ft.candidates.adapters import (
+    CONFIG,
+    WEIGHTS,
+    check_adapter,
+    find_adapter,
+    prompt_has_vocabulary,
+)
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
@@ -128,8 +134,7 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
             f" here; train one with `plannerft train --level {level} --candidate {candidate.name}`,"
             f" name one with --{level}-adapter, or give --configuration {without}"
         )
-    # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
-    with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)
+    with_vocabulary = prompt_has_vocabulary(candidate, vocabulary, adapter)
     default = candidate.adapter_defaults(level, vocabulary).quantization
     quantization = settings.quantization or default or "nf4"
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)

@@ -17,6 +17,7 @@ from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.batches import collate, epoch_steps
 from planner_ft.training.checkpoint import JUDGED, Answer, Run, save_checkpoint
+from planner_ft.training.lean import LONGEST, is_lean
 from planner_ft.training.model import (
     adapter_parameters,
     adapter_tensors,
@@ -136,7 +137,10 @@ def _step(run: Run, indices: list[list[int]]) -> None:
     step = [[run.train[index] for index in batch] for batch in indices]
     samples = [sample for batch in step for sample in batch]
     count = sum(sample.completion_length for sample in samples)
-    batches = [collate(batch, run.pad, packed=packed) for batch in run.ranks.share(step)]
+    together = LONGEST if is_lean(run.model, run.device) else 0
+    batches = [
+        collate(batch, run.pad, packed=packed, together=together) for batch in run.ranks.share(step)
+    ]
     if run.ranks.world > 1:  # dropout of its own for each, whatever a resumed run drew before
         torch.manual_seed(hash((run.settings.seed, state.step, run.ranks.rank)))
     parts = [torch.zeros((), device=run.device)]  # the last step may have nothing for this process
@@ -145,12 +149,13 @@ def _step(run: Run, indices: list[list[int]]) -> None:
         torch.autograd.backward(run.scaler.scale(part))
         parts.append(part.detach())
     # Read after the backward pass was queued: waiting for a GPU in between would leave it idle.
-    loss = float(run.ranks.add_up(torch.stack(parts).sum().cpu()))
+    own = [float(torch.stack(parts).sum()), sum(batch.tokens for batch in batches)]
+    loss, tokens = run.ranks.add_up(torch.tensor(own, dtype=torch.float64)).tolist()
     if not math.isfinite(loss):
         bad = (one for part, one in zip(parts[1:], batches, strict=True) if not part.isfinite())
         raise _not_finite(run, f"loss is {loss}", [one for batch in bad for one in batch.ids])
     norm = _update(run, samples)
-    trained = sum(sample.length for sample in samples)
+    trained = int(tokens)
     state.step += 1
     state.tokens += trained
     state.completion_tokens += count

@@ -122,7 +122,7 @@ def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     head = base.get_output_embeddings()
     places = {} if batch.positions is None else {"position_ids": batch.positions}
     with autocast(batch.input_ids.device, dtype):
-        states = lean_states(model, batch.input_ids, batch.positions)
+        states = lean_states(model, batch.input_ids, batch.positions, batch.shared)
         if states is None:
             output = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places)
             states = output.last_hidden_state

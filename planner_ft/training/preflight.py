@@ -161,10 +161,12 @@ def check_rendering(request: TrainRequest, prepared: Prepared, finding: Finding)
     if tokenizer is None or not prepared.splits:
         finding.text, finding.skipped = "skipped: no tokenizer or no data", True
         return
+    known = level, tokenizer, vocabulary
+    shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
     if prepared.train:
-        prepared.train = render_split(prepared.train, level, tokenizer, vocabulary)
+        prepared.train = render_split(prepared.train, *known, **shown)
     if prepared.validation:
-        prepared.validation = render_split(prepared.validation, level, tokenizer, vocabulary)
+        prepared.validation = render_split(prepared.validation, *known, **shown)
     most, dimensions = request.settings.max_length, request.candidate.dimensions
     limit = min(most, dimensions.context) if dimensions else most
     holds = f"{request.candidate.name} takes no more"

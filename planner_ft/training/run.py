@@ -50,7 +50,9 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
         raise PlannerError(f"--preview-id {sample_id}: {file} holds no record of that id")
     tokenizer = load_tokenizer(request.candidate)
     one = Split(split.path, split.sha256, found)
-    return render_split(one, request.level, tokenizer, request.vocabulary).samples[0], tokenizer
+    shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
+    known = request.level, tokenizer, request.vocabulary
+    return render_split(one, *known, **shown).samples[0], tokenizer
 
 
 def train(

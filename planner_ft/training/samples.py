@@ -223,11 +223,17 @@ def with_variants(
 
 
 def render_split(
-    split: Split, level: Level, tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary
+    split: Split,
+    level: Level,
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    *,
+    with_vocabulary: bool = False,
 ) -> Split:
     """The split with its samples rendered."""
+    shown = {"with_vocabulary": with_vocabulary}
     samples = [
-        Sample(record["id"], render_sample(level, record, tokenizer, vocabulary))
+        Sample(record["id"], render_sample(level, record, tokenizer, vocabulary, **shown))
         for record in split.records
     ]
     return replace(split, samples=samples)

@@ -57,6 +57,7 @@ class TrainSettings:
     max_samples: int | None = None
     augment: int = 0
     vary: int = 0
+    vocabulary_in_prompt: bool = False
     max_steps: int | None = None
     select: Select = "loss"
     validation_answers: int = 25
