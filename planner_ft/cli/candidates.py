@@ -16,14 +16,9 @@ ESTIMATES = (
     " tokens, to run it on 2048 tokens. * with gradient checkpointing. Time on the study's RTX 4070:"
     " the published trainings (minutes for missions, hours for tasks), a mission's answer in seconds."
 )
-GATED = (
-    " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf auth"
-    " login`)"
-)
-OFFLINE = (
-    "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
-    " names."
-)
+PAGE = "https://huggingface.co/REPOSITORY"
+GATED = f" (gated ones: first accept the licence at {PAGE} and run `hf auth login`)"
+OFFLINE = "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
 FIGURES = ("weights", "train, GiB", "GPU, GB", "run, GiB", "GPU, GB")
 TIMES = ("mission, min", "task, h", "answer, s")
 SHORTENED = (" Community", " License", " (non-commercial)")
@@ -57,7 +52,7 @@ def candidates(names: list[str] | None = None, json: bool = False, markdown: boo
         console.print(f"\nTo get one that is not here{gated}:")
         for row in missing:
             console.print(f"  {row['command']}", markup=False)
-        console.print(OFFLINE)
+        console.print(f"{OFFLINE} names.")
 
 
 @command

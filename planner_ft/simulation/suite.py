@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planner_ft.benchmark.gate import Kind, key_problems
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.toml_files import Kind, key_problems
 from planner_ft.document import build, read_document, write_document
 from planner_ft.document.track import Point
 from planner_ft.document.vehicle import load_vehicle
@@ -223,7 +223,7 @@ def suite_table(suite: Suite, ran: Ran) -> Table:
         "Means over runs with 95 % intervals. Published figures are of another simulator, other"
         " structures and distances, so that steps, seconds and thrust are no comparison."
     )
-    return Table("missions", suite.raw["title"], caption, "mission", columns, tuple(rows), 1)
+    return Table("mission", columns, rows, 1, title=suite.raw["title"], caption=caption)
 
 
 def _rows(suite: Suite, mission: Mission, ran: Ran) -> Iterator[TableRow]:

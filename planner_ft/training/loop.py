@@ -77,10 +77,8 @@ def learning_rate(settings: TrainSettings, step: int, total: int) -> float:
 
 
 def train_loop(run: Run) -> None:
-    """Train to the end; then the model holds the best (or last) adapter.
-
-    Raises InterruptedRunError after Ctrl-C, and PlannerError when the loss is not finite or a file
-    cannot be written.
+    """Train to the end; then the model holds the best (or last) adapter. Raises InterruptedRunError
+    after Ctrl-C, and PlannerError when the loss is not finite or a file cannot be written.
     """
     run.model.train()
     state, settings, saved = run.state, run.settings, time.monotonic()

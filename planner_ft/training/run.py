@@ -30,7 +30,7 @@ from planner_ft.training.preflight import CHECKS, Finding, Prepared, longest, ru
 from planner_ft.training.probe import probe_model
 from planner_ft.training.report import Report, Silence
 from planner_ft.training.request import TrainRequest, refusal
-from planner_ft.training.samples import Sample, Split, read_split, render_split
+from planner_ft.training.samples import Sample, read_split
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -49,10 +49,8 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
         file = request.train_file
         raise PlannerError(f"--preview-id {sample_id}: {file} holds no record of that id")
     tokenizer = load_tokenizer(request.candidate)
-    one = Split(split.path, split.sha256, found)
     shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
-    known = request.level, tokenizer, request.vocabulary
-    return render_split(one, *known, **shown).samples[0], tokenizer
+    return replace(split, records=found).rendered(tokenizer, **shown).samples[0], tokenizer
 
 
 def train(

@@ -136,9 +136,8 @@ class Resolved:
 
 
 def resolve_settings(level: Level, sources: Iterable[Source], problems: list[str]) -> Resolved:
-    """Settings from `sources`, the first one first, then published ones, then our defaults.
-
-    A value of None counts as not given; everything wrong is added to `problems`.
+    """Settings from `sources`, the first one first, then published ones, then our defaults. A value
+    of None counts as not given; everything wrong is added to `problems`.
     """
     values: dict[str, Any] = {}
     origin = dict.fromkeys(FIELDS, "default")

@@ -43,4 +43,4 @@ def test_every_help_text_belongs_to_an_option() -> None:
         keys += [key for value in texts.values() if isinstance(value, dict) for key in value]
         assert set(keys) <= set(given), name
     assert set(TEXTS["about"]) <= set(options())
-    assert set(TEXTS) <= {"about", "shared", *options()}
+    assert set(TEXTS) <= {"about", "shared", "options", *options()}
