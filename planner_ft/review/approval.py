@@ -1,10 +1,12 @@
-"""A person's decision about a plan in the log: it shows later changes, not who decided."""
+"""A person's decision about a plan in the log, and its runs: it shows later changes, not who
+decided.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from planner_ft.document import PlanDocument, altered, differences, document_digest
 from planner_ft.review.log import Appended, append
@@ -54,6 +56,19 @@ def reject(document: PlanDocument, log: Path, reviewer: str, reason: str) -> App
     return append(log, _decision("rejected", document, reviewer, reason, []))
 
 
+def record_run(
+    event: Literal["run", "aborted", "ended"],
+    document: PlanDocument,
+    log: Path,
+    reviewer: str,
+    words: str,
+) -> Appended:
+    """Record that an approved plan is carried out, aborted, or over. Raises PlannerError."""
+    _check_texts(reviewer, "")
+    record = {**_decision(event, document, reviewer, words, []), "plan": None}
+    return append(log, record)
+
+
 def _decision(
     event: str, document: PlanDocument, reviewer: str, reason: str, acknowledged: Warnings
 ) -> dict[str, Any]:
@@ -76,12 +91,17 @@ def _decision(
     }
 
 
-def _check_texts(reviewer: str, reason: str) -> None:
-    if not reviewer.strip():
-        raise PlannerError("a decision needs the name of who takes it; give --name NAME")
+def check_name(reviewer: str) -> None:
+    """Raise PlannerError for a name that cannot be recorded."""
     if not reviewer.isprintable() or len(reviewer) > LONGEST_NAME:
         limit = f"must be at most {LONGEST_NAME} printable characters"
         raise PlannerError(f"--name {reviewer[:LONGEST_NAME]!r}: {limit}")
+
+
+def _check_texts(reviewer: str, reason: str) -> None:
+    if not reviewer.strip():
+        raise PlannerError("a decision needs the name of who takes it; give --name NAME")
+    check_name(reviewer)
     try:
         reason.encode()
     except UnicodeEncodeError:

@@ -67,7 +67,7 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     for name, (heading, *_form) in COLUMNS.items():
         cells = [cell(name, Estimate(number(one, name))) for one in quoted]
         rows.append(row(heading, cell(name, measured[name]), *cells))
-    return Table("simulation", "", CAPTION, "", tuple(names), tuple(rows))
+    return Table("", names, rows, caption=CAPTION)
 
 
 def outcome_lines(results: list[RunResult]) -> list[str]:
@@ -105,7 +105,7 @@ def manifest(done: Simulated) -> dict[str, Any]:
         "origin": asdict(done.plan.origin) if done.plan.origin else None,
         "vessel": asdict(done.scene.vessel),
         "step_seconds": done.scene.seconds,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        "vocabulary": vocabulary.named,
     }
     inputs: dict[str, Path | str] = {"plan": settings.plan}
     approval = done.plan.mark

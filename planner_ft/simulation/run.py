@@ -50,6 +50,7 @@ OURS = (
 )
 """Files of a simulation, which --overwrite may remove."""
 Report = Callable[[str, int, int], None]
+Watch = Callable[[Executor], None]
 
 
 @dataclass(frozen=True)
@@ -116,8 +117,12 @@ class Simulated:
     """The log of run 1, without its poses."""
 
 
-def simulate(settings: SimulationSettings, report: Report | None = None) -> Simulated:
-    """Run an approved plan and write everything into the folder. Raises PlannerError."""
+def simulate(
+    settings: SimulationSettings, report: Report | None = None, watch: Watch | None = None
+) -> Simulated:
+    """Run an approved plan and write everything into the folder; `watch` is called after every
+    step. Raises PlannerError.
+    """
     plan = read_plan(settings)
     with alone(settings.folder, "--out", "a simulation"):
         check_writable(settings.folder)
@@ -129,7 +134,7 @@ def simulate(settings: SimulationSettings, report: Report | None = None) -> Simu
         if kept:
             _clear(settings.folder)
         settings.folder.mkdir(parents=True, exist_ok=True)
-        done = prepared.run(report or (lambda _label, _done, _total: None))
+        done = prepared.run(report or (lambda _label, _done, _total: None), watch)
         from planner_ft.simulation.output import write_all
 
         write_all(done)
@@ -211,7 +216,7 @@ class _Prepared:
         }
         return {**self._named(), **given}
 
-    def run(self, report: Report) -> Simulated:
+    def run(self, report: Report, watch: Watch | None) -> Simulated:
         settings, staging = self.settings, self.staging
         with contextlib.ExitStack() as stack:
             writer = _Writer(settings, stack)
@@ -226,6 +231,8 @@ class _Prepared:
             executor.begin()
             while executor.step():
                 writer.step(executor)
+                if watch is not None:
+                    watch(executor)
                 if scene.steps % 100 == 0:
                     ended = settings.runs - int(executor.active.sum())
                     report("runs ended", ended, settings.runs)

@@ -64,10 +64,9 @@ def epoch_order(count: int, seed: int, epoch: int) -> list[int]:
 def epoch_steps(
     lengths: Sequence[int], batch_size: int, accumulation: int, seed: int, epoch: int
 ) -> list[list[list[int]]]:
-    """The optimiser steps of an epoch, each a list of batches of sample indices.
-
-    Samples of one step are sorted by length before they are put into batches: less padding, and
-    the same gradient, a mean over the step's tokens. The last step may be smaller.
+    """The optimiser steps of an epoch, each a list of batches of sample indices. Samples of one
+    step are sorted by length before they are put into batches: less padding, and the same gradient,
+    a mean over the step's tokens. The last step may be smaller.
     """
     order = epoch_order(len(lengths), seed, epoch)
     steps = [
@@ -97,9 +96,8 @@ def validation_batches(lengths: Sequence[int]) -> Iterator[list[int]]:
 def collate(
     samples: Sequence[Sample], pad: int, *, packed: bool = False, together: int = 0
 ) -> Batch:
-    """A batch of rendered samples. `pad` is any valid token id: nothing attends to padding.
-
-    A sample has a row of its own, or, with `packed`, short ones share a row as wide as the longest.
+    """A batch of rendered samples. `pad` is any valid token id: nothing attends to padding. A
+    sample has a row of its own, or, with `packed`, short ones share a row as wide as the longest.
     Samples that begin alike share rows of up to `together` positions, their beginning stands once.
     """
     import torch

@@ -23,9 +23,10 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import sync_folder
+from planner_ft.support.files import sync_folder, writing
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.model import adapter_tensors, make_optimizer, set_adapter
-from planner_ft.training.report import Report
+from planner_ft.training.report import GO_ON, Report
 from planner_ft.training.samples import Sample
 from planner_ft.training.settings import TrainSettings
 
@@ -73,10 +74,7 @@ class TrainState:
 
 @dataclass
 class Run:
-    """A model in training. `pad` is the id that fills batches; layers compute in `dtype`.
-
-    `best` is the best adapter so far, None for the current one.
-    """
+    """A model in training; `pad` fills batches, layers compute in `dtype`, `best`: None if last."""
 
     settings: TrainSettings
     model: Any
@@ -90,12 +88,13 @@ class Run:
     best: dict[str, Tensor] | None = None
     report: Report = field(init=False)
     judge: Judging | None = None
+    ranks: Ranks = ALONE
 
     def __post_init__(self) -> None:
         self.optimizer = make_optimizer(self.model, self.settings)
         half = self.dtype == torch.float16
         self.scaler = torch.amp.GradScaler(self.device.type, enabled=half)
-        size = self.settings.batch_size * self.settings.gradient_accumulation
+        size = self.settings.batch_size * self.settings.gradient_accumulation * self.ranks.world
         self.steps_per_epoch = -(-len(self.train) // size)
         steps = self.settings.epochs * self.steps_per_epoch
         self.total_steps = min(steps, self.settings.max_steps or steps)
@@ -107,7 +106,12 @@ class Run:
 
 
 def save_checkpoint(run: Run) -> None:
-    """Write a checkpoint, then remove all but the last KEPT. Raises PlannerError: disk full."""
+    """Write a checkpoint, then remove all but the last KEPT; of several processes the first does.
+
+    Raises PlannerError: disk full.
+    """
+    if not run.ranks.leads:
+        return
     folder = run.output / CHECKPOINTS
     target = folder / f"{PREFIX}{run.state.step:08d}"
     temporary = folder / f".{target.name}.{os.getpid()}.tmp"
@@ -121,17 +125,13 @@ def save_checkpoint(run: Run) -> None:
     values = {"state": asdict(run.state), "scaler": run.scaler.state_dict(), "optimizer": moments}
     values["sha256"] = hashlib.sha256(content).hexdigest()
     try:
-        temporary.mkdir(parents=True)
-        _write(temporary / "tensors.safetensors", content)
-        _write(temporary / "state.json", json.dumps(values).encode())
-        shutil.rmtree(target, ignore_errors=True)
-        temporary.rename(target)
-        sync_folder(folder)
-    except OSError as error:
-        raise PlannerError(
-            f"{target}: the checkpoint cannot be written ({error.strerror or error}); free some"
-            " space and run the same command with --resume"
-        ) from error
+        with writing(target, GO_ON, "the checkpoint cannot be written"):
+            temporary.mkdir(parents=True)
+            _write(temporary / "tensors.safetensors", content)
+            _write(temporary / "state.json", json.dumps(values).encode())
+            shutil.rmtree(target, ignore_errors=True)
+            temporary.rename(target)
+            sync_folder(folder)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
     for older in checkpoints(run.output)[:-KEPT]:
@@ -139,10 +139,7 @@ def save_checkpoint(run: Run) -> None:
 
 
 def load_newest_checkpoint(run: Run) -> str:
-    """Go back to the newest checkpoint that is whole; return a sentence on it.
-
-    Raises PlannerError when there are only damaged ones.
-    """
+    """Go back to the newest whole checkpoint and say so. Raises PlannerError without one."""
     for path in (run.output / CHECKPOINTS).glob(f".{PREFIX}*.tmp"):
         shutil.rmtree(path, ignore_errors=True)
     damaged: dict[Path, Exception] = {}

@@ -24,9 +24,8 @@ def lean_states(
     model: Any, input_ids: Tensor, positions: Tensor | None, shared: int = 0
 ) -> Tensor | None:
     """The decoder's last hidden states (rows, width, hidden) of a PEFT model, as autocast to
-    bfloat16 would give them; None where the model is not one that this module computes.
-
-    `positions` and `shared` as in `Batch`: samples that share a row do not see each other.
+    bfloat16 would give them; None where the model is not one that this module computes. `positions`
+    and `shared` as in `Batch`: samples that share a row do not see each other.
     """
     base = model.get_base_model()
     if input_ids.shape[1] > LONGEST or not is_lean(model, input_ids.device):
@@ -40,10 +39,10 @@ def lean_states(
         attention, feed = layer.self_attn, layer.mlp
         mixed = _project(_norm(states, layer.input_layernorm), attention, "q_proj k_proj v_proj")
         mixed = mixed.view(rows, width, 3, -1, attention.head_dim)
-        found = _Attention.apply(mixed, cosine, sine, hidden, attention.scaling)  # type: ignore[no-untyped-call]
+        found = _applied(_Attention, mixed, cosine, sine, hidden, attention.scaling)
         states = states + _project(found, attention, "o_proj")
         opened = _project(_norm(states, layer.post_attention_layernorm), feed, "gate_proj up_proj")
-        states = states + _project(_Gated.apply(opened), feed, "down_proj")  # type: ignore[no-untyped-call]
+        states = states + _project(_applied(_Gated, opened), feed, "down_proj")
     return _norm(states, body.norm).view(rows, width, -1)
 
 
@@ -87,8 +86,7 @@ def _project(inputs: Tensor, part: nn.Module, names: str) -> Tensor:
     drop = first.lora_dropout["default"]
     share = drop.p if isinstance(drop, nn.Dropout) and first.training else 0.0
     pairs = [one[key].weight for m in modules for one in (m.lora_A, m.lora_B) for key in one]
-    projected: Tensor = _Projection.apply(inputs, weight, first.scaling["default"], share, *pairs)  # type: ignore[no-untyped-call]
-    return projected
+    return _applied(_Projection, inputs, weight, first.scaling["default"], share, *pairs)
 
 
 def _joined(part: Any, names: str, modules: Sequence[Any]) -> Tensor:
@@ -109,8 +107,13 @@ def _hidden(positions: Tensor, shared: int) -> Tensor:
 
 
 def _norm(states: Tensor, norm: Any) -> Tensor:
-    normalised: Tensor = _Norm.apply(states, norm.weight.detach(), norm.variance_epsilon)  # type: ignore[no-untyped-call]
-    return normalised
+    return _applied(_Norm, states, norm.weight.detach(), norm.variance_epsilon)
+
+
+def _applied(function: Any, *values: Any) -> Tensor:
+    """`function.apply`, which torch gives no type."""
+    found: Tensor = function.apply(*values)
+    return found
 
 
 class _Norm(torch.autograd.Function):

@@ -12,6 +12,7 @@ from torch.utils.checkpoint import checkpoint
 
 from planner_ft.candidates.packing import linear_4bit
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.batches import Batch, collate, validation_batches
 from planner_ft.training.lean import lean_states
 from planner_ft.training.settings import TrainSettings
@@ -36,9 +37,8 @@ def cpu_threads(settings: TrainSettings, parameters: int) -> int:
 
 
 def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
-    """A PeftModel with a new LoRA adapter in float32, which names `reference` as its base.
-
-    Raises PlannerError when `target_modules` fits no layer.
+    """A PeftModel with a new LoRA adapter in float32, which names `reference` as its base. Raises
+    PlannerError when `target_modules` fits no layer.
     """
     from peft import LoraConfig, get_peft_model
 
@@ -76,9 +76,8 @@ def uses_gradient_checkpointing(settings: TrainSettings, parameters: int) -> boo
 
 
 def packs(model: Any) -> bool:
-    """Whether samples may share a row, kept apart by their positions in every layer.
-
-    transformers derives the mask from restarting positions for these attention implementations.
+    """Whether samples may share a row, kept apart by their positions in every layer. transformers
+    derives the mask from restarting positions for these attention implementations.
     """
     config = model.get_base_model().config
     return (
@@ -112,10 +111,9 @@ def autocast(device: torch.device, dtype: torch.dtype) -> torch.autocast:
 
 
 def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
-    """Cross-entropy summed over the batch's completion tokens, a float32 scalar.
-
-    Layers compute in `dtype`. Logits exist for completion positions alone; many are computed in
-    chunks, which the backward pass computes again.
+    """Cross-entropy summed over the batch's completion tokens, a float32 scalar. Layers compute in
+    `dtype`. Logits exist for completion positions alone; many are computed in chunks, which the
+    backward pass computes again.
     """
     base = model.get_base_model()
     head = base.get_output_embeddings()
@@ -150,16 +148,32 @@ def evaluating(model: Any) -> Iterator[None]:
 
 
 def validation_loss(
-    model: Any, samples: Sequence[Sample], pad: int, device: torch.device, dtype: torch.dtype
+    model: Any,
+    samples: Sequence[Sample],
+    pad: int,
+    device: torch.device,
+    dtype: torch.dtype,
+    ranks: Ranks = ALONE,
 ) -> float:
-    """Mean cross-entropy over all completion tokens of `samples`."""
-    total, count = 0.0, 0
+    """Mean cross-entropy over all completion tokens of `samples`, which all processes share."""
+    found = torch.zeros(2, dtype=torch.float64)
     with evaluating(model):
-        for indices in validation_batches([sample.length for sample in samples]):
+        every = list(validation_batches([sample.length for sample in samples]))
+        for indices in ranks.share(every):
             batch = collate([samples[index] for index in indices], pad).to(device)
-            total += float(loss_sum(model, batch, dtype))
-            count += len(batch.targets)
-    return total / count
+            found += torch.tensor([float(loss_sum(model, batch, dtype)), len(batch.targets)])
+    total, count = ranks.add_up(found).tolist()
+    return float(total / count)
+
+
+def add_gradients(model: Any, ranks: Ranks) -> None:
+    """Put the sum over all processes in the place of every gradient; those without a batch add 0."""
+    weights = list(adapter_parameters(model).values())
+    own = [torch.zeros_like(one) if one.grad is None else one.grad for one in weights]
+    summed = ranks.add_up(torch.cat([one.flatten() for one in own]))
+    sizes = [one.numel() for one in own]
+    for one, gradient in zip(weights, torch.split(summed, sizes), strict=True):
+        one.grad = gradient.view_as(one)
 
 
 def make_optimizer(model: Any, settings: TrainSettings) -> torch.optim.Optimizer:
@@ -197,7 +211,6 @@ def memory_levers(settings: TrainSettings, parameters: int, longest: int) -> str
 
 def unpack(model: Any) -> int:
     """Replace 4-bit layers by dense ones with the same weights if memory allows; return how many.
-
     bitsandbytes unpacks a layer in every pass; on a CPU at batch size 1 that takes as long as
     multiplying. Training computes with the very same numbers, in four times the memory.
     """

@@ -9,7 +9,7 @@ import difflib
 import math
 import tomllib
 from collections.abc import Iterable
-from dataclasses import Field, asdict, dataclass, fields
+from dataclasses import Field, asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -121,6 +121,10 @@ class Resolved:
     settings: TrainSettings
     origin: dict[str, str]
 
+    def on(self, device: str) -> Resolved:
+        """The same settings on another device."""
+        return replace(self, settings=replace(self.settings, device=device))
+
     def departures(self, level: Level) -> list[str]:
         """Sentences on published settings that this run does not use."""
         return [
@@ -132,9 +136,8 @@ class Resolved:
 
 
 def resolve_settings(level: Level, sources: Iterable[Source], problems: list[str]) -> Resolved:
-    """Settings from `sources`, the first one first, then published ones, then our defaults.
-
-    A value of None counts as not given; everything wrong is added to `problems`.
+    """Settings from `sources`, the first one first, then published ones, then our defaults. A value
+    of None counts as not given; everything wrong is added to `problems`.
     """
     values: dict[str, Any] = {}
     origin = dict.fromkeys(FIELDS, "default")

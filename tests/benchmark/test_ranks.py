@@ -10,9 +10,9 @@ import os
 import subprocess
 from pathlib import Path
 
-from planner_ft.benchmark.ranks import Ranks
-from planner_ft.benchmark.records import RecordLog
+from planner_ft.benchmark.folder import RecordLog
 from planner_ft.benchmark.suite.units import command
+from planner_ft.support.ranks import Ranks
 
 NAME = "Llama-3.2-1B-Instruct"
 

@@ -24,7 +24,7 @@ from planner_ft.review.store import ChangedError
 from planner_ft.review.web.guard import ASK_THE_TERMINAL, LARGEST_BODY, TOO_LARGE, Door, Guard
 from planner_ft.review.web.planning import BusyError
 from planner_ft.review.web.session import Session
-from planner_ft.support.errors import PlannerError
+from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.files import compact_json, decode_json
 
 PAGE = Path(__file__).parent / "page"
@@ -50,6 +50,7 @@ def web_app(session: Session, door: Door) -> ASGIApp:
             yield
         finally:
             looking.cancel()
+            session.runs.end()
             session.planning.stop()
             session.events.close()
 
@@ -88,6 +89,9 @@ def _api_routes(session: Session) -> list[Route]:
     async def state(_request: Request) -> Response:
         return Json(await run_in_threadpool(session.state))
 
+    async def track(_request: Request) -> Response:
+        return Json(await run_in_threadpool(session.runs.track))
+
     async def events(_request: Request) -> Response:
         news = session.events.listen()
         return responses.StreamingResponse(news, media_type="text/event-stream")
@@ -110,12 +114,16 @@ def _api_routes(session: Session) -> list[Route]:
     return [
         Route("/api/state", state),
         Route("/api/events", events),
-        change(session.plan, "command", "locate"),
-        change(session.edit, "revision", "edit"),
+        Route("/api/track", track),
+        change(session.run, "revision", "name", "speed"),
+        change(session.abort, "name"),
+        change(session.plan, "command", "locate", "sure"),
+        change(session.edit, "revision", "edit", "by"),
         change(session.undo, "revision"),
-        change(session.skills, "revision", "task"),
+        change(session.skills, "revision", "task", "by"),
         change(session.approve, "revision", "name", "acknowledged"),
         change(session.reject, "revision", "name", "reason"),
+        change(session.export, "revision", "formats", "origin", "overwrite", "sure"),
         change(session.open, "path"),
     ]
 
@@ -136,6 +144,10 @@ async def _body(request: Request) -> dict[str, Any]:
     return value
 
 
+OPTIONAL: dict[str, Any] = {"by": "", "origin": "", "sure": False, "overwrite": False}
+"""Keys that a request may leave out, and what they are then."""
+
+
 def _field(body: dict[str, Any], key: str) -> Any:
     """The value of a key, of the type that this key has. Raises PlannerError."""
     value = body.get(key)
@@ -143,9 +155,15 @@ def _field(body: dict[str, Any], key: str) -> Any:
         value = value or {}
         fits = isinstance(value, dict) and all(map(_is_position, value.values()))
         expected = "an object of names with positions [x, y] in metres east and north of home"
+    elif key == "speed":
+        fits, expected = type(value) in (int, float), "a number"
     elif key == "edit":
         fits, expected = isinstance(value, dict), "an object"
-    elif key == "acknowledged":
+    elif key in OPTIONAL:
+        value = OPTIONAL[key] if value is None else value
+        fits = isinstance(value, type(OPTIONAL[key]))
+        expected = "true or false" if isinstance(OPTIONAL[key], bool) else "a text"
+    elif key in ("acknowledged", "formats"):
         fits = isinstance(value, list) and all(isinstance(item, str) for item in value)
         expected = "a list of texts"
     else:
@@ -181,7 +199,8 @@ async def _problem(_request: Request, error: Exception) -> Response:
         count = f"{len(error.missing)} warnings are not acknowledged"
         sentence = f"{count}; read each of them and acknowledge it."
         return Json({"error": sentence, "missing": list(error.missing)}, 422)
-    return Json({"error": str(error)}, 409 if isinstance(error, BusyError) else 422)
+    more = {"question": error.question} if isinstance(error, QuestionError) else {}
+    return Json({"error": str(error), **more}, 409 if isinstance(error, BusyError) else 422)
 
 
 async def _gone(_request: Request, _error: Exception) -> Response:
