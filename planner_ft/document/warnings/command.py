@@ -67,7 +67,11 @@ def other_language(command: str) -> str | None:
 
 
 def _withdrawn(ask: Ask, clauses: Sequence[Clause], spoken: Language) -> str | None:
-    """The words that rule a task out, where nothing behind them asks for it again."""
+    """The words that rule a task out, where nothing behind them asks for it again. An ask without
+    nouns is of several things: what rules one of them out leaves the others.
+    """
+    if ask.named.pattern == ask.said.pattern:
+        return None
     last = None
     for clause in (one for one in clauses if not one.corrected):
         for match in ask.named.finditer(clause.text):
