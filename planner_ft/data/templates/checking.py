@@ -49,9 +49,9 @@ def _samples(vocabulary: Vocabulary) -> Iterator[tuple[Level, Template, Iterator
         sampler = MissionSampler(vocabulary, split=None)
         for command in itertools.chain(*sampler.groups):
             draws = (
-                (plain(text), plan)
+                (plain(one.text), one.expected)
                 for seed in range(40)
-                for text, plan in [sampler.draw(command, Random(seed))]
+                for one in [sampler.compose([command], Random(seed))]
             )
             yield "mission", command, draws
         for clause in itertools.chain(*sampler.clauses):

@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
-from planner_ft.data.templates.grammar import Nodes, Step, TemplateError, parse_plan, parse_text
+from planner_ft.data.templates import grammar
+from planner_ft.data.templates.grammar import Nodes, Step, TemplateError, all_slots
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
@@ -56,17 +57,17 @@ class Template:
 
     @functools.cached_property
     def nodes(self) -> Nodes:
-        return self._parsed(parse_text, self.text)
+        return self._parsed(grammar.parse_text, self.text)
 
     @functools.cached_property
     def steps(self) -> tuple[Step, ...]:
-        return self._parsed(parse_plan, self.plan)
+        return self._parsed(grammar.parse_plan, self.plan)
 
     @functools.cached_property
     def remarks(self) -> tuple[tuple[Nodes, ...], ...]:
         """The constraints and the assumptions."""
         return tuple(
-            tuple(self._parsed(parse_text, line) for line in lines)
+            tuple(self._parsed(grammar.parse_text, line) for line in lines)
             for lines in (self.constraints, self.assumptions)
         )
 
@@ -79,6 +80,12 @@ class Template:
     def error(self, problem: object) -> PlannerError:
         """An error that says where the template stands."""
         return PlannerError(f"{self.where}: {problem}")
+
+    def check_labels(self, steps: str) -> None:
+        """Raise TemplateError for a label that text or plan (called `steps`) have alone."""
+        asked = {call.label for step in self.steps for call in step.calls() if call.label}
+        for name in asked ^ {slot.key for slot in all_slots(self.nodes) if slot.sign == "?"}:
+            raise TemplateError(f"the label ?{name} stands only in the text or only in the {steps}")
 
     @property
     def group(self) -> str:

@@ -11,7 +11,7 @@ from planner_ft.data.task.context import Context
 from planner_ft.data.task.prompts.binding import Bound, Source
 from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size
 from planner_ft.data.task.steps import Entry, Plan
-from planner_ft.data.templates.grammar import Argument, Call, Part, Slot, base_of, choose
+from planner_ft.data.templates.grammar import Argument, Call, Chosen, Slot, base_of, is_small
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
@@ -49,7 +49,7 @@ def twice(calls: list[Entry]) -> bool:
     )
 
 
-class Drawing:
+class Drawing(Chosen):
     """The values of one template or clause and what was chosen of the text."""
 
     def __init__(self, bound: Bound, context: Context) -> None:
@@ -65,14 +65,10 @@ class Drawing:
             for key, share in bound.often.items()
             if self.rng.random() < share or context.linked(bound.sources[key].place)
         )
-        self.parts: list[Part] = choose(bound.template.nodes, self.rng, [], given)
-        first = self.parts[0] if self.parts else ""
-        self.small = isinstance(first, str) and first[:1].islower()
-        slots = [part for part in self.parts if isinstance(part, Slot)]
-        self.labels = {slot.key for slot in slots if slot.sign == "?"}
-        self.chosen = {slot.key for slot in slots if not slot.sign}
+        super().__init__(bound.template.nodes, self.rng, given)
+        self.small = is_small(self.parts)
         self.plan = Plan(bound, self.book, self.labels, self._value)
-        for slot in slots:
+        for slot in self.slots:
             if not slot.sign and slot.key not in self.values:
                 self.values[slot.key] = self._draw(slot)
 
@@ -208,4 +204,4 @@ class Drawing:
         key = str(argument.value)
         if argument.kind == "param":
             return self.context.values[key].value
-        return self.values[key].value if key in self.chosen else None
+        return self.values[key].value if key in self.said else None
