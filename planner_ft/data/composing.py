@@ -89,8 +89,8 @@ class Composer:
                     if not call.label or call.label in drawing.labels:
                         given = {argument.name: argument.value for argument in call.arguments}
                         text, skill = demanded(call.name, given, self.sampler)
-                        sentences = [(place, text, skill) for place in places]
-                        self.effects.append((BODY, number, Effect({call.name}, [], sentences)))
+                        effect = Effect({call.name}, [], [(place, text, skill) for place in places])
+                        self.effects.append((BODY, number, effect))
 
     def _fill_slots(self) -> None:
         for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):

@@ -169,8 +169,10 @@ def _make(
     about = source / ABOUT if source else None
     labelling = read_text(about).strip() if about and about.is_file() else ""
     texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed, labelling)
-    for split, records in splits.items() if messages is not None else ():
-        chats = ((record["id"], messages(level, record, vocabulary)) for record in records)
+    for split, records in splits.items():
+        if messages is None:
+            break
+        chats = [(record["id"], messages(level, record, vocabulary)) for record in records]
         texts[f"chat/{split}.jsonl"] = _lines(
             # For other trainers: all messages, and the answer apart from what comes before it.
             compact_json(
@@ -204,7 +206,8 @@ def _sampled(
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     synthetic, defaults = name == SYNTHETIC, DEFAULT_COUNTS["task"]
-    asked = {"train": settings.synthetic} if synthetic else settings.counts("task")
+    asked: dict[Any, int | None] = settings.counts("task")
+    asked = {"train": settings.synthetic} if synthetic else asked
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():

@@ -142,12 +142,12 @@ def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], di
     sets = {name: counter.transform(texts) for name, texts in splits.items()}
     found: dict[tuple[str, str], dict[int, int]] = {}
     for second, first in ((b, a) for place, b in enumerate(splits) for a in [*splits][:place]):
-        queries, documents = sets[second], sets[first]
-        sizes, lengths = np.diff(documents.indptr), np.diff(queries.indptr)
-        best = _most_similar(
-            queries, documents, lambda shared, at, s=sizes, n=lengths: shared / (n[at] + s - shared)
-        )
-        near = enumerate(best)
+        counts = [np.diff(sets[name].indptr) for name in (second, first)]
+
+        def similar(shared: Any, place: int, counts: list[Any] = counts) -> Any:
+            return shared / (counts[0][place] + counts[1] - shared)
+
+        near = enumerate(_most_similar(sets[second], sets[first], similar))
         found[second, first] = {here: there for here, (there, like) in near if like >= NEAR}
     return found
 

@@ -106,11 +106,8 @@ def _long_words() -> list[str]:
 def _shortens(word: str, whole: str) -> bool:
     """Whether a word has half of the letters of `whole` at least, in order, the first one first."""
     letters = iter(whole)
-    return (
-        whole[0] == word[0]
-        and len(word) < len(whole) <= 2 * len(word)
-        and all(letter in letters for letter in word)
-    )
+    sized = whole[0] == word[0] and len(word) < len(whole) <= 2 * len(word)
+    return sized and all(letter in letters for letter in word)
 
 
 def _resembles(written: str, meant: str) -> bool:
@@ -213,21 +210,12 @@ def missing_words(text: str, phrase: str, *, misspelt: bool) -> list[str]:
 
 
 def _nearest(options: list[list[Span]]) -> list[Span]:
-    """One place per word so that they stand near each other: all near one of the last word, mostly
-    a noun.
-    """
-    best: list[Span] = []
-    for anchor in options[-1]:
-        chosen = [_closest(places, anchor) for places in options]
-        if not best or _width(chosen) < _width(best):
-            best = chosen
+    """One place per word so that all stand near one of the last word, mostly a noun."""
+    found = [[_closest(places, anchor) for places in options] for anchor in options[-1]]
+    best = min(found, key=lambda spans: max(span[1] for span in spans) - min(spans)[0])
     return [span for span in best if abs(span[0] - best[-1][0]) <= FARTHEST]
 
 
 def _closest(places: list[Span], anchor: Span) -> Span:
     index = bisect.bisect_left(places, anchor)
     return min(places[max(0, index - 1) : index + 1], key=lambda span: abs(span[0] - anchor[0]))
-
-
-def _width(spans: list[Span]) -> int:
-    return max(end for _start, end in spans) - min(start for start, _end in spans)

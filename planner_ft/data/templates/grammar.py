@@ -132,8 +132,9 @@ def _merged(nodes: list[Node]) -> Nodes:
     merged: list[Node] = []
     for node in filter(None, nodes):
         if isinstance(node, str) and merged and isinstance(merged[-1], str):
-            node = f"{merged.pop()}{node}"
-        merged.append(node)
+            merged[-1] += node
+        else:
+            merged.append(node)
     return tuple(merged)
 
 
