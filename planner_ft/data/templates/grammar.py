@@ -130,7 +130,7 @@ def _bracket(opener: str, branches: list[Nodes], source: str) -> Nodes:
 def _merged(nodes: list[Node]) -> Nodes:
     """The nodes with neighbouring strings as one."""
     merged: list[Node] = []
-    for node in filter(None, nodes):
+    for node in (one for one in nodes if one):
         if isinstance(node, str) and merged and isinstance(merged[-1], str):
             merged[-1] += node
         else:

@@ -75,8 +75,7 @@ class Factory:
         logical = self.strength != "schema" and not (self.level == "task" and open_place)
         kind = MissionScript if self.level == "mission" else TaskScript
         script = kind(self.vocabulary, Values(), logical=logical and most is None)
-        if most is not None:
-            script = replace(script, most=most)
+        script = script if most is None else replace(script, most=most)
         if self.strength != "grounded" or not script.logical:
             return Answer(self.tokens, script, limit, self._reserve)
         return self._grounded(record, limit, script)
