@@ -116,14 +116,10 @@ def read_forms(
     if quantization == "nf4":
         tensors |= {name: rounded_to_nf4(tensors[name]) for name in layers}
     forms: dict[Level | None, SmallModel] = {}
-    folders: dict[Level | None, Path | None] = {None: None}
-    folders |= {level: path for level, path in adapters.items()}  # noqa: C416
-    for name, at in folders.items():
-        added = _added(at, layers) if at else {}
-        if added is None:
-            return None
-        merged = {key: (tensors[key].float() + new).to(dtype) for key, new in added.items()}
-        form = small_model(config, {**tensors, **merged})
+    for name in (None, *adapters):
+        added = _added(adapters[name], layers) if name else {}
+        merged = {key: (tensors[key].float() + new).to(dtype) for key, new in (added or {}).items()}
+        form = small_model(config, {**tensors, **merged}) if added is not None else None
         if form is None:
             return None
         forms[name] = form
@@ -151,9 +147,7 @@ def _rope(config: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
-    """What an adapter adds to the weights of its layers, by name; None where it is more than a pair
-    of matrices for each.
-    """
+    """What an adapter adds to its layers by name; None where it is more than two matrices each."""
     config, tensors = read_config(folder, CONFIG), load_file(folder / WEIGHTS)
     prefix, down, up = LORA
     names = {layer: prefix + layer.removesuffix(".weight") for layer in layers}
@@ -161,11 +155,8 @@ def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
     # An initialisation with a name (PiSSA, LoftQ ...) changes the base, too.
     plain = config.get("bias") == "none" and isinstance(config.get("init_lora_weights", True), bool)
     others = any(value and name not in PLAIN_LORA for name, value in config.items())
-    if (
-        not plain
-        or others
-        or set(tensors) != {one + end for one in used.values() for end in LORA[1:]}
-    ):
+    pairs = {one + end for one in used.values() for end in LORA[1:]}
+    if not plain or others or set(tensors) != pairs:
         return None
     scaling = config["lora_alpha"] / config["r"]
     return {
@@ -318,9 +309,7 @@ class SmallPasses:
         self.memory = [memory[:, list(kept)] for memory in self.memory]
 
     def _make_room(self, positions: int) -> None:
-        """Memory for this many positions, and their angles. What is not written yet is zero:
-        hidden, it must still be a number.
-        """
+        """Memory for this many positions; what is not written yet is hidden, and still a number."""
         if positions > self.capacity:
             more = max(_up(positions), 2 * self.capacity) - self.capacity
             self.memory = [pad(memory, (0, 0, 0, 0, 0, more)) for memory in self.memory]
@@ -356,9 +345,7 @@ class SmallPasses:
         angles: Sequence[Tensor],
         memory: Tensor,
     ) -> Tensor:
-        """Write the new keys and values into the memory, and let every position look at those up to
-        itself.
-        """
+        """Remember the new keys and values, and let every position look at those up to itself."""
         sizes = self.model.sizes
         heads, key_heads, size = sizes.heads, sizes.kv_heads, sizes.head_dim
         both = heads + key_heads
@@ -374,20 +361,17 @@ class SmallPasses:
             attention(queries[part], memory[:, rows, :reach], hidden[part, ..., :reach])
             for part, rows, reach in grid.parts
         ]
-        spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)[
-            ..., : grid.width, :
-        ]
+        spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)
+        spread = spread[..., : grid.width, :]
         flat = spread.permute(0, 3, 1, 2, 4).reshape(len(states), heads * size)
         return linear(flat.to(states.dtype), *layer.out)
 
 
 @dataclass(frozen=True)
 class _Grid:
-    """Where the tokens of a pass stand: blocks of `width` neighbours, the first at the positions
-    `starts`. Blocks that are not full end with tokens that count for nothing.
-
-    `where` are the row and positions of all tokens in the memory. `parts` are the blocks that
-    attend together, their rows, and the number of keys that they look at.
+    """Where the tokens of a pass stand: blocks of `width` neighbours from the positions `starts`
+    on, filled up with tokens that count for nothing. `where` are the row and positions of all
+    tokens in the memory, `parts` the blocks that attend together, their rows, and their keys.
     """
 
     starts: Tensor
@@ -416,9 +400,7 @@ class _Grid:
         return cls(first, width, (rows, positions), parts)
 
     def hidden(self, group: int) -> Tensor:
-        """Minus infinity where a key is later than a query, else 0: (blocks, 1, group * BLOCK,
-        keys).
-        """
+        """Minus infinity for later keys, else 0: (blocks, 1, group * BLOCK, keys)."""
         queries = (self.starts[:, None] + torch.arange(BLOCK)).repeat(1, group)
         later = torch.arange(self.parts[-1][2]) > queries[:, None, :, None]
         return torch.zeros(later.shape).masked_fill_(later, -torch.inf)
