@@ -12,7 +12,7 @@ from planner_ft.decoding.constraints.patterns import DECIMALS, WHOLE_DIGITS
 from planner_ft.decoding.constraints.spans import LONGEST_WORD
 from planner_ft.decoding.constraints.tokens import Tokens
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary import Skill, Task, Vocabulary
 from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level
 
 _NUMBER = 2 + WHOLE_DIGITS + DECIMALS
@@ -48,14 +48,11 @@ def least_limit(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
 
 
 def _owner(name: str, owner: Task | Skill, tokens: Tokens) -> int:
-    """Tokens of a task's or skill's name and parameters: those that must be written and may stand
-    before them, or the one that was begun.
-    """
-    sizes = [tokens.most_spelt("," + key(item.name)) + _bytes(item) for item in owner.parameters]
+    """Tokens of a name and the parameters that must be written, or the one that was begun."""
+    sizes = [
+        tokens.most_spelt("," + key(item.name)) + _BYTES.get(item.type, LONGEST_WORD + 2)
+        for item in owner.parameters
+    ]
     needed = bool(owner.require_any) or any(item.required for item in owner.parameters)
     opens = len(compact_json(name).encode()) + tokens.most_spelt(f'",{key("parameters")}{{')
     return opens + (sum(sizes) if needed else max(sizes, default=0))
-
-
-def _bytes(parameter: Parameter) -> int:
-    return _BYTES.get(parameter.type, LONGEST_WORD + 2)

@@ -95,23 +95,23 @@ class Factory:
         found = read_waypoints(record, self.vocabulary) if self.level == "task" else None
         free = found if isinstance(found, str) else ""
         values = GroundedValues(self.level, record, self.vocabulary, free_waypoints=bool(free))
-        if isinstance(script, TaskScript) and isinstance(found, Waypoints):
-            script = replace(script, whole=found)
-        grounded = replace(script, values=values)
-        if isinstance(grounded, TaskScript):
-            grounded = replace(grounded, waypoints=grounded.whole)
         goes = [SKILL_OPENS + skill.name for skill in self.vocabulary.skills if skill.coordinates]
 
         def notes(text: str) -> list[str]:
             moves = any(name in text for name in goes)
             return [*values.notes, *([free] if free and moves else [])]
 
-        # A mission's places are stated or unresolved, its other values can be left out. The lanes of
-        # a grid follow from the task's own parameters: the model is not left to write others.
-        loose = script if self.level == "task" else None
-        if isinstance(loose, TaskScript) and loose.whole and loose.whole.whole:
-            loose = replace(loose, waypoints=loose.whole)
-        return Answer(self.tokens, grounded, limit, self._reserve, notes, loose)
+        if not isinstance(script, TaskScript):
+            # A mission's places are stated or unresolved, its other values can be left out.
+            grounded = replace(script, values=values)
+            return Answer(self.tokens, grounded, limit, self._reserve, notes)
+        known = found if isinstance(found, Waypoints) else None
+        steps = replace(script, values=values, waypoints=known, whole=known)
+        # The lanes of a grid follow from the task's own parameters: the model is not left to write
+        # others.
+        own = known if known and known.whole else None
+        loose = replace(script, waypoints=own, whole=known)
+        return Answer(self.tokens, steps, limit, self._reserve, notes, loose)
 
     @functools.cached_property
     def _reserve(self) -> int:

@@ -94,9 +94,8 @@ class GroundedValues(Values):
             # "The box from (0, 0) to (40, 20)" has the corners in between.
             crossed = len(known) <= MOST_CROSSED
             places = itertools.product(*zip(*known, strict=True)) if crossed else known
-        return lark.one_of(
-            grammar, (lark.written(place) for place in places if tuple(place) not in barred)
-        )
+        allowed = (place for place in places if tuple(place) not in barred)
+        return lark.one_of(grammar, map(lark.written, allowed))
 
     def text(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
         if self._spans.too_long:
@@ -116,15 +115,20 @@ class GroundedValues(Values):
         known = {getattr(skill, REPORTS[key]) for skill in self._vocabulary.skills} - {None}
         if not known:
             return super().step_texts(grammar, key)
-        return lark.items(
-            grammar, lark.one_of(grammar, map(compact_json, sorted(known))), lark.MOST_TEXTS
-        )
+        reports = lark.one_of(grammar, map(compact_json, sorted(known)))
+        return lark.items(grammar, reports, lark.MOST_TEXTS)
 
     def _written_numbers(self, parameter: Parameter) -> list[str] | None:
-        """Texts of a parameter's number; None where any number can be meant."""
-        if parameter not in self._numbers:
-            values = None if self._facts.unread else self._source.values(parameter)
-            self._numbers[parameter] = None if values is None else _usable(values, parameter)
+        """Texts of a parameter's number, smallest first; None where any number can be meant."""
+        if parameter not in self._numbers and self._facts.unread:
+            self._numbers[parameter] = None
+        elif parameter not in self._numbers:
+            low, high, whole = parameter.minimum, parameter.maximum, parameter.type == "integer"
+            values = (one for one in self._source.values(parameter) if abs(one) < LARGEST)
+            found = sorted({round(value, digits) for value in values for digits in (2, 4)})
+            within = (one for one in found if low is None or high is None or low <= one <= high)
+            usable = (one for one in within if not whole or one == int(one))
+            self._numbers[parameter] = list(map(lark.written_number, usable))
         return self._numbers[parameter]
 
     @functools.cached_property
@@ -139,15 +143,6 @@ class GroundedValues(Values):
                 known |= {lark.written_number(value) for value in said}
         known |= {lark.written_number(abs(value)) for place in self._places for value in place}
         return prose(number for number in known if len(number) <= LONGEST_NUMBER)
-
-
-def _usable(values: Iterable[float], parameter: Parameter) -> list[str]:
-    """The values that a parameter can have, as they are written, smallest first."""
-    low, high = parameter.minimum, parameter.maximum
-    found = {round(value, digits) for value in values if abs(value) < LARGEST for digits in (2, 4)}
-    within = (value for value in found if low is None or high is None or low <= value <= high)
-    whole = parameter.type == "integer"
-    return [lark.written_number(one) for one in sorted(within) if not whole or one == int(one)]
 
 
 def prose(numbers: Iterable[str]) -> str:

@@ -90,9 +90,7 @@ def number_range(minimum: float, maximum: float, *, whole: bool) -> str:
 
 
 def _digits(low: int, high: int, decimals: int) -> list[str]:
-    """Patterns of the whole numbers from `low` to `high`, one for each number of digits, with a
-    point before the last `decimals`.
-    """
+    """Patterns of whole numbers, one per number of digits, a point before the last `decimals`."""
     options = []
     for count in range(decimals + 1, max(len(str(high)), decimals + 1) + 1):
         first = max(low, 10 ** (count - 1) if count > decimals + 1 else 0)
