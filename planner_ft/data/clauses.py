@@ -79,8 +79,9 @@ class Clause(Drawing):
         it does not fit. `alone`: these tasks are one thing that was asked for.
         """
         effect, titles = Effect(), frozenset(self.template.tasks)
-        asked = (one for at, one in enumerate(planned) if at in covered and not one.inserted)
-        if titles and titles.isdisjoint(one.task.title for one in asked if not one.intent.home):
+        asked = [at for at in sorted(covered) if not planned[at].inserted]
+        own = [at for at in asked if not planned[at].intent.home]
+        if titles and titles.isdisjoint(planned[at].task.title for at in own):
             return None
         limits, places = load_limits(self.vocabulary), moving(planned)
         for call in (step.call for step in self.template.steps):
@@ -90,8 +91,10 @@ class Clause(Drawing):
             if given.get("scope", "mission") != "mission" and not alone:
                 return None
             if call.name in limits:
-                self._limit(call.name, given, planned, effect)
-            elif not self._demand(call.name, given, planned, covered, effect):
+                fits = self._limit(call.name, given, planned, own, effect)
+            else:
+                fits = self._demand(call.name, given, planned, covered, effect)
+            if not fits:
                 return None
             if not places:
                 return None
@@ -118,20 +121,36 @@ class Clause(Drawing):
         return found
 
     def _limit(
-        self, kind: str, given: dict[str, Any], planned: Sequence[Planned], effect: Effect
-    ) -> None:
-        limits, places = load_limits(self.vocabulary), moving(planned)
+        self,
+        kind: str,
+        given: dict[str, Any],
+        planned: Sequence[Planned],
+        own: Sequence[int],
+        effect: Effect,
+    ) -> bool:
+        """Whether a limit fits; if so, the effect has it. One of the tasks at the places `own`
+        alone names their titles, which no other task may have.
+        """
+        limits, places, titles = load_limits(self.vocabulary), moving(planned), list[str]()
+        if given.pop("scope", "mission") == "task":
+            titles = [planned[place].task.title for place in own]
+            others = (item for place, item in enumerate(planned) if place not in own)
+            if any(item.task.title in titles for item in others):
+                return False
+            places = [place for place in places if place in own]
         if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
             raise TemplateError(f"{kind} needs {' and '.join(slots(limits[kind].sentences[-1]))}")
         effect.about.add(kind)
-        effect.constraints.append(sentence(kind, given, limits))
+        effect.constraints.append(sentence(kind, given, limits, titles))
         text, rule = prompt_sentence(kind, given, limits), limits[kind]
         values = {name: given[value] for name, value in rule.parameters.items()}
         beside = ("filter", rule.filter, values) if rule.filter else None
         if kind == "return":
             places = [place for place in places if planned[place].intent.home]
-        if kind != "duration":
-            effect.sentences += [(place, text, beside) for place in places]
+        elif kind == "duration" and not titles:
+            places = []
+        effect.sentences += [(place, text, beside) for place in places]
+        return True
 
     def _demand(
         self,

@@ -65,8 +65,8 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     ]
     rows = [row("runs", str(len(done.results)), *(one["runs"] for one in quoted))]
     for name, (heading, *_form) in COLUMNS.items():
-        cells = [_cell(name, Estimate(_number(one, name))) for one in quoted]
-        rows.append(row(heading, _cell(name, measured[name]), *cells))
+        cells = [cell(name, Estimate(number(one, name))) for one in quoted]
+        rows.append(row(heading, cell(name, measured[name]), *cells))
     return Table("simulation", "", CAPTION, "", tuple(names), tuple(rows))
 
 
@@ -117,22 +117,27 @@ def manifest(done: Simulated) -> dict[str, Any]:
     )
 
 
-def _cell(name: str, value: Estimate) -> Cell:
+def cell(name: str, value: Estimate) -> Cell:
     _heading, factor, decimals = COLUMNS[name]
     return figure(value.value, value.low, value.high, scale=factor, decimals=decimals)
+
+
+def published_missions() -> list[dict[str, str]]:
+    """The lines of published.csv."""
+    with open(PUBLISHED, encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
 
 
 def _published(done: Simulated, narrow: bool) -> list[dict[str, str]]:
     """The published missions of this command, or all of them; none of another vehicle."""
     if done.plan.vocabulary.name != "usv":
         return []
-    with open(PUBLISHED, encoding="utf-8", newline="") as stream:
-        lines = list(csv.DictReader(stream))
+    lines = published_missions()
     same = [line for line in lines if line["command"] == done.plan.document["command"].strip()]
     return same or ([] if narrow else lines)
 
 
-def _number(line: dict[str, str], name: str) -> float | None:
+def number(line: dict[str, str], name: str) -> float | None:
     """A published figure, a rate as a fraction; None where none was published."""
     text = line.get(name)
     return float(text) / (float(line["runs"]) if name == "success" else 1) if text else None

@@ -19,7 +19,7 @@ from planner_ft.planning.frame import origin_of
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
 from planner_ft.simulation.executor import Executor
-from planner_ft.simulation.fast import SIMULATORS
+from planner_ft.simulation.fast import SIMULATORS, build_simulator
 from planner_ft.simulation.faults import Faults
 from planner_ft.simulation.measures import Observer, RunResult
 from planner_ft.simulation.scene import Scene
@@ -173,11 +173,13 @@ class _Prepared:
             placed,
             objects,
             self.staging.fences,
+            self.staging.allowed,
             settings.faults,
             settings.runs,
             settings.seed,
         )
         count = settings.runs
+        self.simulator = build_simulator(settings.simulator, self.vessel, count)
         poses = np.zeros((count, 4))
         poses[:, :2] = [starts[run % len(starts)] for run in range(count)]
         poses[:, 3] = np.random.default_rng([settings.seed, 3]).uniform(-math.pi, math.pi, count)
@@ -202,9 +204,8 @@ class _Prepared:
         settings, staging = self.settings, self.staging
         with contextlib.ExitStack() as stack:
             writer = _Writer(settings, stack)
-            simulator = SIMULATORS[settings.simulator](self.vessel, settings.runs)
             origin = self.plan.origin or Origin(0.0, 0.0)
-            scene = Scene(self.world, simulator, self.starts, origin, writer.write)
+            scene = Scene(self.world, self.simulator, self.starts, origin, writer.write)
             tasks = [task["id"] for task in self.plan.document["tasks"]]
             observer = Observer(scene, staging.fences, staging.rings(), staging.close(), tasks)
             writer.begin(scene, observer, self._way())

@@ -34,7 +34,6 @@ BUNDLED = {
     "boundary": f"{PLACE}.filters:Boundary",
     "clearance": f"{PLACE}.filters:Clearance",
     "heading": f"{PLACE}.filters:Heading",
-    "home": f"{PLACE}.guidance:Home",
     "measure": f"{PLACE}.sensing:Sensor",
 }
 """Implementations by kind of motion (usv.motion.toml), and those without a motion."""

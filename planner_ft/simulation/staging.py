@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.document.clearance import ROUND, Structure, fence, structures
+from planner_ft.document.clearance import ROUND, Allowed, Structure, fence, structures
 from planner_ft.document.limits import limits_of
 from planner_ft.document.track import Leg, Point, place_of
 from planner_ft.exporters.formats import PlanExport
@@ -43,7 +43,8 @@ class Staging:
         way_out = "give its place with `plannerft review` or --locate of `plannerft plan`"
         for place in self.document["open_places"]:
             numbers = ", ".join(f"t{number}" for number in place["tasks"])
-            problem = f"where {place['name']} is, is not known, and {numbers} needs it"
+            verb = "need" if len(place["tasks"]) > 1 else "needs"
+            problem = f"where {place['name']} is, is not known, and {numbers} {verb} it"
             raise PlannerError(f"{problem}; {way_out}")
         for task in self.document["tasks"]:
             if not task["skill_sequence"] or task.get("stale"):
@@ -65,6 +66,11 @@ class Staging:
         ]
         area = self.document["vehicle"]["area"]
         return found + ([Fence(_polygon(area))] if area else [])
+
+    @property
+    def allowed(self) -> Allowed:
+        """Whether a leg keeps the fences."""
+        return fence(self.document, self.vocabulary)
 
     @property
     def seconds(self) -> float:
@@ -128,9 +134,8 @@ class Staging:
 
     def home(self) -> Stage:
         """The way home, with the vehicle's filters that keep clear and inside."""
-        kept = {"implementation": "home", "allowed": fence(self.document, self.vocabulary)}
         movement = Job(
-            *("way home", {}, Motion("go", {}), kept, "home", 0, (self.vocabulary.home,)),
+            *("way home", {}, Motion("go", {}), {}, "home", 0, (self.vocabulary.home,)),
             speed=min(self.vessel.cruise, self.speed),
             tolerance=self.tolerance,
             failure="home not reached",

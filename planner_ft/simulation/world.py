@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.document.clearance import Structure
+from planner_ft.document.clearance import Allowed, Structure
 from planner_ft.document.track import Point
 from planner_ft.simulation.fast import Floats, Runs
 from planner_ft.simulation.faults import Faults
@@ -52,7 +52,7 @@ class Fence:
 
 class World:
     """What stands in the water and what the water does, for B runs of one seed: `structures` where
-    they are, `charted` where the plan has them.
+    they are, `charted` where the plan has them; `allowed` legs keep the fences.
     """
 
     def __init__(
@@ -63,12 +63,13 @@ class World:
         structures: Sequence[Structure],
         objects: Mapping[str, Point],
         fences: Sequence[Fence],
+        allowed: Allowed,
         faults: Faults,
         runs: int,
         seed: int,
     ) -> None:
         self.vessel, self.home, self.charted = vessel, home, tuple(charted)
-        self.structures = tuple(structures)
+        self.structures, self.allowed = tuple(structures), allowed
         self.objects, self.fences, self.faults = dict(objects), tuple(fences), faults
         self.generator = np.random.default_rng([seed, 1])
         speed = self.generator.uniform(*CURRENT, runs)
