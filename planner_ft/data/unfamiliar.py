@@ -20,8 +20,8 @@ from planner_ft.vocabulary.plans import Level, named_entries
 
 _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
 _TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
-_PREFIXES, _SUFFIXES = _TABLES["prefixes"].split(), _TABLES["suffixes"].split()
-_STAYING, _ACCENTS = frozenset(_TABLES["staying"].split()), _TABLES["accents"]
+_LISTS: dict[str, list[str]] = {k: v.split() for k, v in _TABLES.items() if isinstance(v, str)}
+_STAYING, _ACCENTS = frozenset(_LISTS["staying"]), dict[str, str](_TABLES["accents"])
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]+")
 """The words of a name such as CaptureGeoSnapshot."""
 _UNCLEAR = ("u", "eu", "one", "hon")
@@ -46,8 +46,12 @@ def with_unfamiliar_words(
         forms = {word + end: text + end for end in ("", "s")}
         forms |= {form[0].upper() + form[1:]: o[0].upper() + o[1:] for form, o in forms.items()}
         pattern = re.compile(rf"(?<!\w)({'|'.join(map(re.escape, forms))})(?!\w)")
-        changed = replaced(changed, pattern, lambda match, forms=forms: forms[match[0]])
+        changed = replaced(changed, pattern, _by(forms))
     return changed
+
+
+def _by(forms: dict[str, str]) -> Callable[[re.Match[str]], str]:
+    return lambda match: forms[match[0]]
 
 
 def unfamiliar_word(word: str, rng: Random) -> str:
@@ -67,9 +71,9 @@ def _noun(rng: Random) -> str:
     if roll < 0.5:
         return rng.choice(things) + rng.choice(things)
     if roll < 0.65:
-        begun = rng.choice(_PREFIXES) + rng.choice(things)
-        return begun + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
-    word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_SUFFIXES)
+        begun = rng.choice(_LISTS["prefixes"]) + rng.choice(things)
+        return begun + (rng.choice(_LISTS["suffixes"]) if rng.random() < 0.4 else "")
+    word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_LISTS["suffixes"])
     return _accented(word, rng, 0.25)
 
 
