@@ -84,10 +84,7 @@ class WordLists:
         if name not in self.lists:
             return MADE_UP[name](rng)
         entries, weights = self.lists[name]
-        if weights is None:
-            text = entries[int(rng.random() * len(entries))]
-        else:
-            text = rng.choices(entries, cum_weights=weights)[0]
+        text = rng.choices(entries, cum_weights=weights)[0] if weights else pick(entries, rng)
         return text if "{" not in text else self.fill(text, rng)
 
     def fill(self, text: str, rng: Random) -> str:

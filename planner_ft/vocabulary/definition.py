@@ -188,7 +188,7 @@ def build_vocabulary(
 ) -> Vocabulary:
     """The vocabulary of parsed files. Raises PlannerError that lists everything wrong."""
     logic, motion = logic or {}, motion or {}
-    problems = checks.shape_problems(raw, phrases)
+    problems = list(checks.shape_problems(raw, phrases))
     if not problems:
         vocabulary = _build(raw, phrases)
         problems += checks.reference_problems(vocabulary)
