@@ -16,19 +16,13 @@ from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
 from planner_ft.candidates.tokenizer import FileTokenizer
 from planner_ft.confidence.choices import Choice, Choices
+from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
 from planner_ft.decoding.constraints.steps import STEP_OPENS
 from planner_ft.decoding.forward import SmallModel, read_forms
-from planner_ft.decoding.generate import (
-    Generation,
-    Latency,
-    Method,
-    Query,
-    generate_unordered,
-    measure_latency,
-)
+from planner_ft.decoding.generate import Generation, Method, Query
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.sampling import Sampling
@@ -153,7 +147,7 @@ class Engine:
         if level := _level(queries):
             method, limits = self.method(level, configuration, sampling), self.limits[level]
             with self.configured(level, configuration) as decoder:
-                yield from generate_unordered(
+                yield from generate.generate_unordered(
                     decoder, queries, limits, method, batch_size=batch_size
                 )
 
@@ -163,14 +157,12 @@ class Engine:
         configuration: Configuration,
         *,
         sampling: Sampling | None = None,
-    ) -> Iterator[tuple[int, Latency]]:
-        """Yield (index of the query, latency), one query at a time. The queries are of one
-        level.
-        """
+    ) -> Iterator[tuple[int, Generation]]:
+        """Yield (index of the query, answer with its latency), one query at a time."""
         if level := _level(queries):
             method = self.method(level, configuration, sampling)
             with self.configured(level, configuration) as decoder:
-                yield from measure_latency(decoder, queries, self.limits[level], method)
+                yield from generate.measure_latency(decoder, queries, self.limits[level], method)
 
     def method(
         self, level: Level, configuration: Configuration, sampling: Sampling | None = None

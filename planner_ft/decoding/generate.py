@@ -66,20 +66,6 @@ class Generation:
 
 
 @dataclass(frozen=True)
-class Latency:
-    """Seconds from prompt ids to the complete answer, the number of generated tokens, and the
-    forward passes that they took.
-
-    `first_token_s` are the seconds until the first token was known.
-    """
-
-    seconds: float
-    tokens: int
-    forward_passes: int
-    first_token_s: float | None = None
-
-
-@dataclass(frozen=True)
 class Method:
     """How tokens are chosen, and what saves forward passes; an answer depends on `constraint`,
     `sampling` and `entries` alone.
@@ -173,8 +159,9 @@ def generate_unordered(
 
 def measure_latency(
     decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN
-) -> Iterator[tuple[int, Latency]]:
-    """Yield (index of the query, latency), one query after the other.
+) -> Iterator[tuple[int, Generation]]:
+    """Yield (index of the query, answer), one query after the other; its `seconds` are those from
+    prompt ids to the complete answer.
 
     A whole query runs first and is not counted: kernels are chosen, 4-bit weights packed and
     grammars compiled then.
@@ -185,8 +172,7 @@ def measure_latency(
         started = time.perf_counter()
         (answer,) = generate(decoder, [query], limits, method)
         # `generate` has read the last token from the device: nothing is left running.
-        seconds, tokens = time.perf_counter() - started, len(answer.ids)
-        yield index, Latency(seconds, tokens, answer.forward_passes, answer.first_token_s)
+        yield index, replace(answer, seconds=time.perf_counter() - started)
 
 
 def _room(decoder: Decoder, query: Query, limits: Limits) -> int:
