@@ -112,9 +112,7 @@ def table(header: Sequence[Any], rows: Iterable[Sequence[Any]]) -> str:
 
 
 def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
-    """Mission level: titles that follow each other. Task level: skills that run at the same time,
-    in alphabetical order.
-    """
+    """Titles that follow each other; at task level skills that run at the same time, sorted."""
     for record in records:
         if level == "mission":
             yield from itertools.pairwise(plan_names(level, record["expected"]))

@@ -49,9 +49,7 @@ Messages = Callable[[Level, Record, Vocabulary], list[dict[str, str]]]
 
 @dataclass(frozen=True)
 class GenerationSettings:
-    """What to generate. A count of None is the published one; `source` is the folder of the curated
-    mission set.
-    """
+    """What to generate. None is the published count; `source` the folder of the curated set."""
 
     level: str = "all"
     out: Path = Path("data")
@@ -90,9 +88,7 @@ class GenerationSettings:
 
 @dataclass
 class Generated:
-    """The result for one level: where it lies, records by split, whether it was written or found up
-    to date, seconds by stage.
-    """
+    """One level's result: its folder, records by split, whether it is new, seconds by stage."""
 
     level: Level
     folder: Path

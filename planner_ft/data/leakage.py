@@ -92,9 +92,7 @@ def leakage_report(
 
 
 def near_duplicate(prompt: str, records: Records) -> str | None:
-    """The id of the first record whose prompt, as written or masked, is that one or nearly so (see
-    NEAR); None where none is.
-    """
+    """The id of the first record whose prompt, or its phrasing, is (nearly) that one; or None."""
     wanted = [_shingles(text) for text in (prompt, mask(prompt))]
     for record in records:
         text = str(record["prompt"])

@@ -85,9 +85,7 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
 def bound(
     template: Template, lists: WordLists, used: set[str], owners: Owners, lines: list[Line]
 ) -> Bound:
-    """A command or a clause whose plan needs the `used` slots, as far as text and plan agree.
-    Raises TemplateError.
-    """
+    """A command or clause whose plan needs the `used` slots. Raises TemplateError."""
     template.check_labels("plan")
     slots = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
     used |= {slot.key for nodes in itertools.chain(*template.remarks) for slot in all_slots(nodes)}

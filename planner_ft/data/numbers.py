@@ -199,9 +199,7 @@ def angle(value: float, rng: Random) -> Value:
 
 
 def rotation(value: float, rng: Random) -> Value:
-    """A signed angle, clockwise positive: "15 degrees to the left"; short: "-15 degrees"; noun: "a
-    half circle to port".
-    """
+    """A signed angle, clockwise positive: "15 degrees to the left"; short: "-15 degrees"."""
     size = abs(value)
     unit = "°" if rng.random() < 0.1 else f" {many(size, 'degree')}"
     way = pick(ENDINGS["right" if value > 0 else "left"], rng)
@@ -240,9 +238,7 @@ def knots(rng: Random) -> Value:
 
 
 def position(value: Point, rng: Random, form: str | None = None) -> Value:
-    """A position in one of the forms in which operators give coordinates, `form` of them where it
-    is given; short: always in brackets.
-    """
+    """A position as operators give coordinates, in `form` if given; short: in brackets."""
     x, y = digits(value[0]), digits(value[1])
     short = f"[{x}, {y}]" if rng.random() < 0.75 else f"({x}, {y})"
     roll = rng.random()

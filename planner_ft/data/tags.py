@@ -1,6 +1,4 @@
-"""The tags of the curated mission set, one per labelling rule, and the audit of what the set
-covers. The tags stand in tags.toml.
-"""
+"""The tags of the curated mission set, one per labelling rule (tags.toml), and their audit."""
 
 from __future__ import annotations
 
@@ -63,9 +61,7 @@ def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[
 
 
 def coverage_problems(splits: Mapping[str, Records], vocabulary: Vocabulary) -> list[str]:
-    """What a curated mission set lacks: counts, titles and `which.*` tags per split, families and
-    prompts that cross splits.
-    """
+    """What a curated mission set lacks per split, and families and prompts that cross splits."""
     problems = [
         f"{split}: {len(splits[split])} records, {count} are expected"
         for split, (count, _least) in COVERAGE.items()

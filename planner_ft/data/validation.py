@@ -51,9 +51,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Report:
-    """What a file holds, by kind ("mission record", "task prediction", ...), and everything wrong
-    with it.
-    """
+    """What a file holds, by kind ("mission record", ...), and everything wrong with it."""
 
     path: Path
     counts: dict[str, int]
@@ -99,9 +97,7 @@ def validate_file(
 
 
 def canonical_record(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> str:
-    """The line of a valid record in the form in which gen-data writes it: keys in a fixed order,
-    canonical plan.
-    """
+    """The line of a valid record as gen-data writes it: keys in order, canonical plan."""
     values = {**record, "expected": canonical_plan(level, record["expected"], vocabulary)}
     if level == "task":
         owner = vocabulary.task[record["task"]]
@@ -111,9 +107,7 @@ def canonical_record(level: Level, record: dict[str, Any], vocabulary: Vocabular
 
 
 def file_values(path: Path) -> Iterator[tuple[int, Any, str | None]]:
-    """(line, value, None) or (line, None, what is wrong) for each object: one per line, or the
-    whole file as one object.
-    """
+    """(line, value, None) or (line, None, what is wrong) for each object, one a line or whole."""
     text = read_text(path)
     if not text.strip():
         raise PlannerError(f"{path}: is empty; a dataset, predictions or a plan is expected")
@@ -135,9 +129,7 @@ def object_problems(
     *,
     complete: bool = False,
 ) -> tuple[Kind | None, Level | None, list[str]]:
-    """Kind and level of an object, and everything wrong with it. `level` is the one that it must
-    have; None takes what it has.
-    """
+    """Kind, level (`level`, if given) and problems of an object."""
     kind: Kind
     if "expected" in value:
         kind, plan, key = "record", value["expected"], "expected: "
@@ -175,9 +167,7 @@ def object_problems(
 def record_problems(
     level: Level, record: dict[str, Any], vocabulary: Vocabulary, *, complete: bool = False
 ) -> list[str]:
-    """What is wrong with a dataset record. Without `complete`, `expected` may hold names and
-    parameters alone.
-    """
+    """What is wrong with a record; only if `complete`, `expected` needs its texts."""
     family = ("family",) if complete or "family" in record else ()
     problems = _identifier_problems(record, ("id", "prompt", *family))
     if level == "task":

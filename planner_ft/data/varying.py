@@ -41,9 +41,7 @@ def varied(record: dict[str, Any], vocabulary: Vocabulary, rng: Random) -> dict[
 def _with_other_numbers(
     record: dict[str, Any], vocabulary: Vocabulary, rng: Random
 ) -> dict[str, Any] | None:
-    """The record with every plainly written number of its prompt changed; None where the plan has
-    another one, or none fits it.
-    """
+    """The record with all plainly written numbers changed; None where that does not fit."""
     prompt, expected = record["prompt"], record["expected"]
     numbers = read_numbers(prompt)
     own = {float(part) for place in (vocabulary.home, vocabulary.unresolved) for part in place}

@@ -113,9 +113,7 @@ class WordLists:
         return Value(stored, entry, stored)
 
     def quoted(self, name: str, rng: Random) -> Value:
-        """A text to be written down word for word: mostly in quotation marks, a single word also
-        without.
-        """
+        """A text to be written down word for word, mostly in quotation marks."""
         stored = self.noun(name, rng).value
         mark = pick(("'", '"', "'", '"', ""), rng) or ("" if " " not in stored else '"')
         return Value(stored, f"{mark}{stored}{mark}")

@@ -118,9 +118,7 @@ class Engine:
     def query(
         self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False
     ) -> Query:
-        """A question to the agent of a level. `with_vocabulary` is for base models, which have not
-        learned it.
-        """
+        """A question to a level's agent; a base model is shown the vocabulary."""
         prompt = render_prompt(
             level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary
         )
@@ -190,9 +188,7 @@ class Engine:
         return without_working(self._decoded(_said(answer)))[1]
 
     def choices(self, answer: Generation) -> Choices | None:
-        """The tokens of `text(answer)` with what the model itself held of them; None where that is
-        not known.
-        """
+        """The tokens of `text(answer)` with the model's own odds; None where unknown."""
         ids = _said(answer)
         text = self._decoded(ids)
         scores = [scored for scored in answer.scores[: len(ids)] if scored is not None]
@@ -297,18 +293,14 @@ def _level(queries: Sequence[Query]) -> Level | None:
 
 
 def is_small(candidate: Candidate, device: str) -> bool:
-    """Whether a candidate is so small, on a CPU, that a token's time goes to everything but the
-    multiplications.
-    """
+    """Whether a token's time on a CPU goes to everything but the multiplications."""
     from planner_ft.training.model import SMALL_MODEL
 
     return device == "cpu" and (candidate.parameters or SMALL_MODEL) < SMALL_MODEL
 
 
 def decoding_threads(candidate: Candidate, device: str) -> int | None:
-    """CPU threads to decode with: one for small models, as in training, where a busy core would
-    hold up every operation.
-    """
+    """CPU threads to decode with: one for small models; a busy core holds up more."""
     return 1 if is_small(candidate, device) else None
 
 

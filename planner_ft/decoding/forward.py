@@ -167,9 +167,7 @@ def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
 
 @dataclass(frozen=True)
 class Layer:
-    """Weights of a layer: rows of `qkv` are the query, key and value heads, those of `gate_up` the
-    two halves of the feed-forward part.
-    """
+    """A layer: rows of `qkv` are query, key, value heads; of `gate_up` the two halves."""
 
     norm: Tensor
     qkv: Linear
@@ -181,9 +179,7 @@ class Layer:
 
 @dataclass(frozen=True)
 class SmallModel:
-    """Weights of a Llama or Qwen2 model as they compute. `frequencies` are those of the rotary
-    positions, shape (head size / 2).
-    """
+    """A Llama or Qwen2 model; `frequencies` of its rotary positions, (head size / 2)."""
 
     layers: tuple[Layer, ...]
     embeddings: Tensor
@@ -205,18 +201,14 @@ class SmallModel:
         return rms_norm(states, weight.shape, weight, self.epsilon).to(self.head.dtype)
 
     def angles(self, positions: int) -> tuple[Tensor, Tensor]:
-        """Cosine and sine of the rotary positions, (positions, 1, head size); the first half of the
-        sine is negative, as rotation by `roll` wants it.
-        """
+        """Cosine and sine of rotary positions, (positions, 1, head size), for `roll`."""
         angles = torch.arange(positions).float()[:, None] * self.frequencies
         sine = angles.sin()
         return angles.cos().repeat(1, 2)[:, None], torch.cat([-sine, sine], 1)[:, None]
 
 
 def small_model(config: Mapping[str, Any], tensors: Mapping[str, Tensor]) -> SmallModel | None:
-    """The model of a config.json and tensors by name; None where it is of another kind, or its
-    tensors are not those of its configuration.
-    """
+    """The model of a config.json and tensors; None where they are of another kind."""
     sizes = Dimensions.from_config(dict(config))
     if sizes is None or not _is_supported(config):
         return None
@@ -272,9 +264,7 @@ def _frequencies(rope: Mapping[str, Any], size: int) -> Tensor:
 
 
 class SmallPasses:
-    """Forward passes of a batch (see `passes.Passes`). Rows have their own positions, so each is
-    fed as many tokens as it likes.
-    """
+    """Forward passes of a batch (see passes.Passes); each row has positions of its own."""
 
     wide = True
 

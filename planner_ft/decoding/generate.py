@@ -27,9 +27,7 @@ from planner_ft.vocabulary.plans import Level
 
 @dataclass(frozen=True)
 class Query:
-    """A question to the agent of a level: its record ({"prompt", ...}), and the ids of the prompt
-    that it is rendered into.
-    """
+    """A question to a level's agent: its record ({"prompt", ...}) and prompt ids."""
 
     level: Level
     record: dict[str, Any]

@@ -21,9 +21,7 @@ than it saves.
 
 
 class ModelDecoder:
-    """A model of transformers, with whatever adapter is active. Shorter prompts of a batch are
-    padded on the left.
-    """
+    """A transformers model with its active adapter; short prompts are padded left."""
 
     def __init__(self, model: Any, pad_id: int) -> None:
         self.model = model

@@ -1,6 +1,4 @@
-"""The state of one sequence: the tokens that are fed to the model, and those that its logits
-decide.
-"""
+"""The state of one sequence: tokens that are fed, and those that its logits decide."""
 
 from __future__ import annotations
 
@@ -93,9 +91,7 @@ class SequenceState:
         self._propose()
 
     def feed(self, *, wide: bool) -> tuple[list[int], int]:
-        """The tokens of the next pass, and how many logits at their end are wanted. Nothing is
-        drafted for a sequence that is not `wide`.
-        """
+        """The tokens to feed, and how many logits; no draft where not `wide`."""
         self.forward_passes += 1
         self._wide = wide
         if not wide:

@@ -44,9 +44,7 @@ class PlanExportSettings:
 
 @dataclass(frozen=True)
 class ExportedPlan:
-    """A file that was written, the report beside it, the account of what the file holds, and
-    sentences on where [0, 0] lies.
-    """
+    """A written file, the report beside it, its account, and where [0, 0] lies."""
 
     format: Format
     file: Path
@@ -137,9 +135,7 @@ def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:
 
 
 def loss_summary(account: Account) -> str:
-    """One line: how much of the plan is in the file, which tasks do not move as planned, and where
-    the mission stops.
-    """
+    """One line: how much of the plan the file has, and where the mission stops."""
     carried, lost, changed = map(len, (account.carried, account.lost_paths, account.changed_paths))
     still = {path for path in account.lost_paths if path[4:] == MOVEMENT}
     entries = f"{carried} of {carried + lost} entries carried, {changed} of them in another form"

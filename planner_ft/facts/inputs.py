@@ -1,6 +1,4 @@
-"""What an answer can draw on: a command with its vehicle, or a task prompt with the task's
-parameters.
-"""
+"""What an answer can draw on: a command with its vehicle, or a task prompt with its parameters."""
 
 from __future__ import annotations
 
@@ -38,9 +36,7 @@ class Input:
     def stated(
         self, value: Any, parameter: Parameter, tolerance: float = reading.EXACT
     ) -> Evidence:
-        """Whether the text or a parameter of the task says a value: the evidence without the
-        vehicle's own places and without geometry.
-        """
+        """Evidence of the text and the task's parameters, without vehicle and geometry."""
         if self._is_own(value, parameter, tolerance):
             return Evidence("stated")
         found = self.facts.evidence(value, parameter, tolerance)
@@ -80,9 +76,7 @@ class Input:
 
     @functools.cached_property
     def ground(self) -> derived.Ground | None:
-        """What waypoints are derived from; None where numbers or a shape of the text cannot be read
-        with certainty.
-        """
+        """What waypoints are derived from; None where the text cannot be read with certainty."""
         facts, home = self.facts, _point(self.vocabulary.home)
         lengths = {number.value for number in facts.numbers("m") if number.value > 0}
         lengths |= {value for value in self._own("m") if value > 0}

@@ -76,17 +76,13 @@ class Number:
 
 @functools.lru_cache(maxsize=4096)
 def read_numbers(text: str) -> tuple[Number, ...]:
-    """Every number of a text in order, words included, in the plain way of reading it; "a minute"
-    is one minute, "half an hour" 1800 s.
-    """
+    """Every number of a text in order and in the plain way of reading it, words included."""
     return _plain(read_rows(text)[0])
 
 
 @functools.lru_cache(maxsize=4096)
 def read_all(text: str) -> tuple[Number, ...]:
-    """The numbers of a text in every way of reading it, in order; those that the plain way has not
-    are of rank REREAD and above.
-    """
+    """The numbers in every way of reading a text, in order; rank REREAD for not the plain one."""
     plain = dict.fromkeys(read_numbers(text))
     others = itertools.chain(_times(text), *map(_every, read_rows(text)))
     reread = (replace(one, rank=REREAD + (one.rank >= BARE)) for one in others if one not in plain)
@@ -94,9 +90,7 @@ def read_all(text: str) -> tuple[Number, ...]:
 
 
 def in_unit(text: str, unit: str | None) -> Iterator[Number]:
-    """The numbers of a text as values of a parameter in `unit`, bare ones and sums of neighbours
-    ("two minutes and thirty seconds") included.
-    """
+    """The numbers as values of a parameter in `unit`, bare ones and sums of neighbours too."""
     numbers = read_all(text)
     totals = list(_sums(numbers, unit))
     # "2 h 20 min" are no two hours.

@@ -44,9 +44,7 @@ class Token(NamedTuple):
 
 
 class Row:
-    """The tokens of a text: numbers, words in lower case and signs; digits and letters that stand
-    together ("5m") are apart.
-    """
+    """The tokens of a text: numbers, words in lower case, signs; "5m" are two."""
 
     def __init__(self, text: str, tokens: list[Token]) -> None:
         self.text, self.tokens = text, tokens
@@ -155,9 +153,7 @@ class Row:
         return FRACTIONS[self.word(place)], place + 1
 
     def unit(self, index: int) -> tuple[Unit | None, int]:
-        """The unit at `index`, with its factor, and the index behind it; words that may stand
-        before it are passed over.
-        """
+        """The unit at `index` and the index behind it; words that may stand before are passed."""
         for _passed in range(PASSED):
             index += self.word(index) in WORDS["beside_unit"]
         if self.word(index) == "per" and self.word(index + 1) == "cent":

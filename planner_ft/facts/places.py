@@ -274,9 +274,7 @@ def read_bearings(text: str) -> tuple[Number, ...]:
 
 
 def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
-    """Angles in degrees of the turns that a text speaks of: full, once, half, three quarters,
-    twice, three times.
-    """
+    """Angles in degrees of the turns of a text: full, once, half, twice, three times."""
     for row in read_rows(text):
         for index, (word, start, end) in enumerate(row.tokens):
             turn = TURNS.get(word, 0.0)

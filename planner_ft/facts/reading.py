@@ -144,9 +144,7 @@ class Facts:
 
     @functools.cached_property
     def loose(self) -> tuple[float, ...]:
-        """The numbers that coordinates can be made of, where one that is said as a coordinate has
-        no partner.
-        """
+        """Numbers that coordinates can be of, where one of these has no partner."""
         if self.unread or not places.unpaired_coordinates(self._local[:THOROUGH]):
             return ()
         return tuple(dict.fromkeys(one.said for one in self._all if one.unit in ("m", None)))

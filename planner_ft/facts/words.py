@@ -122,9 +122,7 @@ def _resembles(written: str, meant: str) -> bool:
 
 
 class Phrases:
-    """The words of a text by every form that counts as the same word: without a possessive ending,
-    in its parts ("red-white").
-    """
+    """The words of a text by every form of them: without possessive ending, in parts."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -140,16 +138,12 @@ class Phrases:
         self._places: dict[str, list[Span]] = {}
 
     def missing(self, phrase: str, *, misspelt: bool = True) -> list[str]:
-        """Words of a phrase that the text does not say; with `misspelt`, a word that resembles one
-        says it.
-        """
+        """Words of a phrase that the text lacks; with `misspelt`, a resembling one counts."""
         said = self.places if misspelt else self._exact
         return [word for word in words(phrase) if not said(word)]
 
     def spans(self, phrase: str) -> list[tuple[Span, ...]]:
-        """The places of a phrase: where it stands word for word, else its words near each other;
-        none where half of them are not said.
-        """
+        """The places of a phrase, word for word or near each other; none if half is not said."""
         whole = self._whole(normalised(phrase))
         if whole:
             return [(span,) for span in whole]

@@ -139,9 +139,7 @@ class Vocabulary:
 
     @property
     def data(self) -> Path:
-        """The folder of its data sets: data, data/NAME for another bundled vehicle, else that of
-        the definition.
-        """
+        """Its data: data, data/NAME for other bundled vehicles, else beside it."""
         if self.path is not None and not self.bundled:
             return self.path.parent
         return Path("data") / ("" if self.name == DEFAULT else self.name)

@@ -95,9 +95,7 @@ def pattern_clause(
 
 
 def pattern_phrase(book: Phrasebook, title: str, pattern: str, rng: Random) -> tuple[str, str]:
-    """A phrase for a movement of several steps, and the plan that it stands for; both empty where
-    there is none.
-    """
+    """A phrase for a movement of several steps, and its plan; empty where there is none."""
     phrases, config = book.pattern(pattern, title), book.patterns.get(pattern, {})
     try:
         phrase, plan = pick(phrases, rng), PLANS[pattern].format_map(book.motions)

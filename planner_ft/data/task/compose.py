@@ -71,9 +71,7 @@ class Movement:
 
 @dataclass
 class Run:
-    """A skill that runs beside some of the movements, given by their places; without a name, words
-    that ask for no skill.
-    """
+    """A skill, or words that ask for none (no name), beside the movements at these places."""
 
     skill: str
     clause: Clause

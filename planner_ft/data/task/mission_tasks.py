@@ -120,9 +120,7 @@ def task_record(
 
 @functools.cache
 def _meanings(vocabulary: Vocabulary, title: str) -> list[tuple[Bound, set[str]]]:
-    """What a task comes to, and the parameters that this needs: the first of them whose parameters
-    are given counts.
-    """
+    """What a task comes to, with the parameters that this needs: the first that fits counts."""
     found = []
     for plan in vocabulary.beside(MISSIONS).get("task", {}).get(title, {}).get("skills", ()):
         where = f"{vocabulary.name}{MISSIONS}: [task.{title}] skills"

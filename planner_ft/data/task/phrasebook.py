@@ -150,9 +150,7 @@ class Phrasebook:
         self.verbs = {"run", *_VERB.findall(compact_json(raw))}
 
     def pattern(self, name: str, title: str) -> Sequence[str]:
-        """Phrases of a movement of several steps: the task's own ones, twice as often, and the
-        general ones.
-        """
+        """Phrases of a movement of several steps, the task's own ones twice as often."""
         general = self.patterns.get(name, {})
         if self.unseen and general.get("unseen"):
             return list(general["unseen"])

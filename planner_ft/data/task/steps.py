@@ -37,9 +37,7 @@ def plan_step(
     perceptions: list[Entry],
     vocabulary: Vocabulary,
 ) -> Entry:
-    """A step of the plan, with the strings that its skills report. Parameters are brought into
-    canonical form.
-    """
+    """A step of the plan in canonical form, with the strings that its skills report."""
     running = (name, *(entry["name"] for entry in (*filters, *perceptions)))
     stops, failures, outputs = _reports(vocabulary, running)
     return {

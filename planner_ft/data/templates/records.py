@@ -38,9 +38,7 @@ LISTS = {
 
 @dataclass(eq=False)
 class Template:
-    """A record of a template file; texts and plan are parsed at first use, with a PlannerError
-    that names file and line.
-    """
+    """A record of a template file; parsed at first use, with errors that name file and line."""
 
     id: str
     split: str
@@ -103,9 +101,7 @@ def template_files(vocabulary: Vocabulary, kind: Kind) -> list[Path]:
 
 
 def templates(vocabulary: Vocabulary, kind: Kind, split: str | None = None) -> list[list[Template]]:
-    """The vehicle's templates by group, those of one split. Raises PlannerError for a record that
-    is not of the form.
-    """
+    """The vehicle's templates of a split by group. Raises PlannerError for a faulty record."""
     groups: dict[tuple[str, str], list[Template]] = {}
     for path in template_files(vocabulary, kind):
         stem = path.stem

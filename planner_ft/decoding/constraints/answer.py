@@ -1,6 +1,4 @@
-"""The state of one constrained answer: a row of grammars, each of which can depend on the text
-before it.
-"""
+"""The state of one constrained answer: a row of grammars, each made from the text before it."""
 
 from __future__ import annotations
 
@@ -80,9 +78,7 @@ class Answer:
         return narrowed
 
     def expected(self) -> list[int]:
-        """Tokens that probably follow, since their text must; empty where there is a choice. The
-        state is unchanged.
-        """
+        """Tokens that probably follow, since their text must. The state is unchanged."""
         if self._matcher is None or self._hurried:
             return []
         return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]

@@ -40,9 +40,7 @@ def reserve(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
 
 
 def least_limit(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
-    """The smallest limit within which every answer ends: what closes it, its beginning, and the end
-    token.
-    """
+    """The smallest limit within which every answer ends, its beginning and end token included."""
     opens = mission_opens() if level == "mission" else "{" + key("skill_sequence") + "["
     return reserve(level, vocabulary, tokens) + tokens.most_spelt(opens) + 1
 

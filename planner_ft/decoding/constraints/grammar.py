@@ -50,9 +50,7 @@ class Grammar:
         return self._named(body, "r")
 
     def terminal(self, body: str) -> str:
-        """The name of a terminal with this body: one lexeme, a regular expression without
-        recursion.
-        """
+        """The name of a terminal (one lexeme, no recursion) with this body."""
         return self._named(body, "T")
 
     def text(self, start: str) -> str:
@@ -161,9 +159,7 @@ class Script:
         raise NotImplementedError
 
     def following(self, text: str) -> tuple[str, Script] | None:
-        """The next grammar, and the script from there, after `text` was matched by the last one;
-        None when the answer is complete.
-        """
+        """The next grammar and script behind a matched `text`; None: complete."""
         raise NotImplementedError
 
     def parameter(
@@ -205,9 +201,7 @@ def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:
 
 
 def sequence_opens(grammar: Grammar) -> str:
-    """The expression before the first step of a skill sequence, with or without a scratchpad of
-    sums in front.
-    """
+    """The expression before the first step, with or without a working in front."""
     opens = literal(key("skill_sequence") + "[")
     sums = grammar.terminal(regex(f'"{patterns.SUMS}{{1,{LONGEST_WORKING}}}"'))
     return f'"{{" ({literal(key(plans.WORKING))} {sums} ",")? {opens}'
@@ -257,9 +251,7 @@ def corners(grammar: Grammar, position: str) -> str:
 
 
 def body(grammar: Grammar, owner: Task | Skill, script: Script) -> str | None:
-    """The rule of a task or skill behind its name, up to its closing brace; None where a required
-    parameter has no value.
-    """
+    """The rule of a task or skill behind its name; None where a needed value is missing."""
     parameters = _parameters(grammar, owner, script)
     if parameters is None:
         return None

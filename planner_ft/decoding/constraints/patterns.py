@@ -54,9 +54,7 @@ def escaped(text: str) -> str:
 
 
 def string(longest: int, *, blank: bool) -> str:
-    """A JSON string of at most `longest` characters; without `blank` it begins with one that is no
-    blank.
-    """
+    """A JSON string of at most `longest` characters, `blank` ones allowed at its beginning."""
     rest = longest if blank else longest - 1
     return regex(rf'"{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"')
 

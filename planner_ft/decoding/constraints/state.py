@@ -22,9 +22,7 @@ from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 @dataclass(frozen=True)
 class MissionScript(Script):
-    """Grammars of a mission plan: the titles that may follow, then what stands behind the `chosen`
-    title.
-    """
+    """A mission plan: the titles that may follow, then what follows the `chosen` title."""
 
     most: int = lark.MOST_TASKS
     progress: Progress = START

@@ -1,6 +1,4 @@
-"""A tokenizer as the grammar engine sees it: tokens as bytes, ends of an answer, and masks of
-tokens as bits.
-"""
+"""A tokenizer as the grammar engine sees it: tokens as bytes, ends, masks of tokens as bits."""
 
 from __future__ import annotations
 
@@ -42,9 +40,7 @@ suffice.
 
 @dataclass(frozen=True, eq=False)
 class Tokens:
-    """Tokens of a tokenizer. `n_vocab` is the width of the model's logits, which can be padded;
-    `end_ids` end an answer.
-    """
+    """A tokenizer's tokens; `n_vocab` is the width of the logits, `end_ids` end an answer."""
 
     engine: LLTokenizer
     n_vocab: int
@@ -167,9 +163,7 @@ def allows(mask: Mask, token: int | None) -> bool:
 
 @functools.lru_cache(maxsize=4)
 def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = None) -> Tokens:
-    """The tokens of a Hugging Face tokenizer; seconds for a large vocabulary, so the result is
-    kept. Raises PlannerError for a slow one.
-    """
+    """The (kept) tokens of a tokenizer. Raises PlannerError for a slow one."""
     from llguidance import LLTokenizer
 
     width = max(n_vocab or 0, len(tokenizer))

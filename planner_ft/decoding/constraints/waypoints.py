@@ -52,9 +52,7 @@ class Waypoints:
     whole: bool = False
 
     def shown(self, working: str) -> Waypoints:
-        """These with the coordinates that a scratchpad (planner_ft.data.task.working) derives from
-        the facts; wrong sums derive nothing.
-        """
+        """These with the coordinates of right sums of a working (data.task.working)."""
         found = tuple({place[axis] for place in self.places} for axis in (0, 1))
         lengths = set(self.lengths)
         for axis, base, sign, away, result in SUM.findall(working):

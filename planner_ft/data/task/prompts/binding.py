@@ -28,9 +28,7 @@ WORDS = ("start", "turn", "axis")
 
 
 class Source(NamedTuple):
-    """How a slot's value is drawn, the place that a task parameter fills, and whether it is a list
-    of texts.
-    """
+    """How a value is drawn, the place that a task parameter fills, whether it is a list."""
 
     draw: Draw
     place: str

@@ -25,9 +25,7 @@ RIGHT = (" to the right", " to starboard", " clockwise")
 
 
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
-    """The prompt with its values marked, the expected plan and the skills in it; None when the draw
-    came to nothing.
-    """
+    """The prompt with its values marked, its plan and skills; None for a draw without a plan."""
     drawing = Drawing(bound, context)
     text = joined(drawing.pieces(), small=drawing.small)
     try:
@@ -75,9 +73,7 @@ class Drawing(Chosen):
     # ------------------------------------------------------------ values
 
     def _task_values(self) -> None:
-        """Task parameters that the text refers to are there; positions are known where something is
-        calculated from them.
-        """
+        """Task parameters of the text are there; positions that are calculated with are known."""
         context, bound = self.context, self.bound
         for name in sorted(bound.params):
             context.require(name)
@@ -182,9 +178,7 @@ class Drawing(Chosen):
         return pieces
 
     def _said(self, slot: Slot, place: int) -> str:
-        """The value's wording: bare between quotation marks, with the side where the text around it
-        does not tell.
-        """
+        """The value's wording: bare in quotation marks, with the side where the text has none."""
         value = self.values[slot.key]
         around = (self.parts[:place][-2:], self.parts[place + 1 : place + 4])
         before, after = ("".join(part for part in some if isinstance(part, str)) for some in around)

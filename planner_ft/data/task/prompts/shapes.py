@@ -1,6 +1,4 @@
-"""Steps that stand for a whole shape: what each needs, how that is drawn, and its waypoints or
-headings.
-"""
+"""Steps that stand for a whole shape: what each needs, its draws, its waypoints or headings."""
 
 from __future__ import annotations
 
@@ -169,9 +167,7 @@ def value_draw(shape: str, role: str, base: str) -> Draw:
 
 
 def grid_size(rng: Random, *, free: bool) -> dict[str, float]:
-    """Width, length, spacing and count of lanes, which fit; `free`: the length need not be a
-    multiple of the spacing.
-    """
+    """A grid's sizes and lanes, which fit; `free`: its length is no multiple of the spacing."""
     spacing = pick((2, 2.5, 3, 4, 5, 5, 6, 7.5, 8, 10, 10, 12, 15, 20, 25), rng)
     width = g.tidy(spacing * (pick((2, 2, 3, 3, 3, 4, 4, 5, 5, 6, 7, 8, 9, 11), rng) - 1))
     along = g.tidy(spacing * rng.randrange(1, 11))
