@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
 DOUBTFUL, BARE, FITTING = 0.04, 0.5, 0.6
-"""Shares of positions said with doubt, sizes without a unit before another size, and line spacings
-that divide the width.
-"""
+"""Shares of doubtful positions, bare sizes before another size, spacings that divide the width."""
 LANES = 12
 PLACED = (
     *(" at {}",) * 26,

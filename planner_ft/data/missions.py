@@ -35,9 +35,7 @@ from planner_ft.vocabulary.plans import value_problem
 FOREIGN = 0.03
 """Share of lengths and speeds in feet and knots."""
 CLAUSES, HOSTS, TWO = 0.3, 0.35, 0.25
-"""Shares of commands with clauses; among these, of templates made for them and of two templates in
-one command.
-"""
+"""Shares of commands with clauses; of these, of templates made for them and of two in one."""
 HOST, HOSTED = "{C", "clauses-"
 """A place for a clause, and the ids of the templates of this subject, which are drawn often."""
 ORDERING = ("first", "before", "after", "last", "then", "finally", "end", "finish", "next", "again")

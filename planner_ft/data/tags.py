@@ -30,9 +30,7 @@ ALWAYS_TAGGED: dict[str, str] = {task: tag for tag, task in _column("always").it
 WORDS = {tag: re.compile(rf"\b(?:{words})\b", re.I) for tag, words in _column("words").items()}
 """A command with such words may be one with the tag, where records have none."""
 COVERAGE = {"train": (125, 8), "validation": (25, 1), "test": (25, 1)}
-"""Records of each split of a curated set, and how often a title occurs there at least. Every
-`which.*` tag occurs once at least.
-"""
+"""Records of each split, and how often a title at least; every `which.*` tag occurs once."""
 
 
 def tags_of(vocabulary: Vocabulary) -> list[str]:

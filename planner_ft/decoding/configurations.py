@@ -16,9 +16,7 @@ the facts of the command.
 """
 WEIGHTS = ("base", "lora")
 MAX_NEW_TOKENS: dict[Level, int] = {"mission": 1024, "task": 2048}
-"""Default limits per answer. The longest expected plan takes well below half of it with the
-published tokenizers.
-"""
+"""Default limits per answer; the longest expected plan takes well below half of it."""
 
 
 @dataclass(frozen=True)

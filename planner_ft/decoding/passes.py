@@ -15,9 +15,7 @@ from torch import Tensor
 from planner_ft.decoding.forward import SmallModel
 
 SHARED = 16
-"""Tokens that prompts must have in common for a pass of their own: below it, the pass costs more
-than it saves.
-"""
+"""Tokens that prompts must share for a pass of their own: below, it costs more than it saves."""
 
 
 class ModelDecoder:

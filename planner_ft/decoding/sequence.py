@@ -20,13 +20,9 @@ if TYPE_CHECKING:
 RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
 LONGEST_RUN = 16
-"""Tokens in a row, of two kinds at most, behind which an enforced text ends: a small model can
-write "ggg" for ever.
-"""
+"""Tokens of two kinds at most in a row that end an enforced text: small models write "ggggg..."."""
 LONGEST_FORCED = 31
-"""Tokens that must follow and are fed with the choice before them: nothing of them is taken back,
-but for a value that is released.
-"""
+"""Tokens that must follow and are fed with the choice before them; only a release drops them."""
 LIKELIEST = 4
 """Tokens of a place whose log-probabilities are kept."""
 FinishReason = Literal["stop", "length", "error"]

@@ -14,9 +14,7 @@ from planner_ft.facts.numerals import AND, Row, unit_of
 from planner_ft.facts.words import edit_distance, is_known
 
 WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
-"""How plainly a number is said: with its unit, without, as half of a pair, in the unit of another
-number, in another way of reading the text.
-"""
+"""How plainly: with unit, without, half of a pair, in another's unit, in another reading."""
 THOROUGH = 6000
 """Characters of a text whose misspelt words are put right; what follows is read as it stands."""
 CHOICES = range(2)

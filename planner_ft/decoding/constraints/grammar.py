@@ -28,9 +28,7 @@ LONGEST_WORKING = 600
 """Characters of a working. The longest of 3,000 sampled tasks has 250."""
 LONGEST_TEXT = 200
 LONGEST_PROSE = 400
-"""Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest
-labels have 55 and 181.
-"""
+"""Characters of a parameter, and of a sentence; the longest labels have 55 and 181."""
 
 Positions = Sequence[Sequence[float]]
 

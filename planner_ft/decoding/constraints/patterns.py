@@ -13,13 +13,9 @@ import math
 from fractions import Fraction
 
 WHOLE_DIGITS = 7
-"""Digits before the point where a definition sets no range: lengths of ten thousand kilometres in
-metres.
-"""
+"""Digits before the point where a definition sets no range."""
 DECIMALS = 4
-"""Digits behind the point. Labels have two; with more than four, Python would write small numbers
-with an exponent.
-"""
+"""Digits behind the point; with more, Python would write small numbers with an exponent."""
 
 QUOTE = '"'
 CHARACTER = r'[^"\\\x00-\x1f\x7f]'
@@ -67,9 +63,7 @@ ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTIO
 ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
 CLOSING_ZEROS = r"-?[0-9]+\.[0-9]*0"
 SUMS = r"[xy0-9.+/=;\-]"
-"""Signs of a working (see planner_ft.data.task.working). Its form is not enforced: where sums are
-read, wrong ones derive nothing.
-"""
+"""Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
 
 
 @functools.lru_cache(maxsize=1024)

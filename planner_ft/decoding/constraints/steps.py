@@ -34,9 +34,7 @@ CLOSES = "]}"
 MOST_ALIKE = 4
 """Uses of a skill in one step."""
 MOST_SAME, MOST_RUN = 12, 36
-"""Steps in a row with the same movement and values, and with the same movement that goes nowhere:
-a turn in 36 steps has 10 degrees each.
-"""
+"""Equal steps in a row, and movements that go nowhere: a turn in 36 steps has 10 degrees each."""
 
 Step = tuple[Skill, Mapping[str, Any]]
 """A skill and its parameters."""

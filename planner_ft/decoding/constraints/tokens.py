@@ -18,9 +18,7 @@ if TYPE_CHECKING:
     from llguidance import LLMatcher, LLTokenizer
 
 GRAMMARS = 256
-"""Compiled grammars that are kept per tokenizer: the states of a plan come again with every
-command.
-"""
+"""Compiled grammars that are kept: the states of a plan come again with every command."""
 
 TEXT_SLICES = [rf'[^0-9"\\\x00-\x1F\x7F]{{1,{longest}}}' for longest in (10, 30)]
 """Tokens without digits, which the engine allows or refuses together: sentences whose numbers are
@@ -29,13 +27,9 @@ known allow them all.
 With a vocabulary of 128k, a mask takes 0.2 ms instead of 1.5.
 """
 LEAST_GROWN = 4
-"""Bytes of a forced text from which on longer tokens are looked for; of the last few the engine
-itself sees whether they may grow.
-"""
+"""Bytes of a forced text from which on longer tokens are looked for; the engine sees fewer."""
 CONTEXT = 8
-"""Tokens before a forced text that it is spelt with at first; the whole answer where they do not
-suffice.
-"""
+"""Tokens before a forced text that it is spelt with, the whole answer where they do not do."""
 
 
 @dataclass(frozen=True, eq=False)
