@@ -22,6 +22,9 @@ def simulate(
     locate: list[str] | None = None,
     start: list[str] | None = None,
     fault: list[str] | None = None,
+    goto: str = "guidance",
+    survey: str = "waypoints",
+    outline: list[str] | None = None,
     tolerance: float = 1.0,
     mcap: int = 1,
     origin: str | None = None,
@@ -41,6 +44,7 @@ def simulate(
     assert plan is not None
     from planner_ft.planning.locations import parse_locations
     from planner_ft.simulation.faults import read_faults
+    from planner_ft.simulation.outlines import read_outlines
     from planner_ft.simulation.output import outcome_lines, table
     from planner_ft.simulation.run import SimulationSettings
     from planner_ft.simulation.run import simulate as run
@@ -58,6 +62,9 @@ def simulate(
         draft=draft,
         vocabulary=vocabulary,
         overwrite=overwrite,
+        goto=goto,
+        survey=survey,
+        outlines=read_outlines(outline or []),
     )
     with interruptible(lambda: f"{settings.folder} holds the logs so far") as report:
         done = run(settings, report)
@@ -83,8 +90,6 @@ def _suite(path: Path, options: dict[str, Any]) -> None:
     with interruptible(lambda: again) as report:
         ran = run_suite(suite, out, report, overwrite=options["overwrite"])
     terminal().print(terminal_table(suite_table(suite, ran)))
-    for name, why in ran.skipped.items():
-        show(f"{name}: {why}")
     show(f"{out}: table.md, table.csv, and a folder per mission with plan, log and runs")
 
 

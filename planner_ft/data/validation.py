@@ -138,8 +138,8 @@ def object_problems(
     elif any(list_key(known) in value for known in LEVELS):
         kind, plan, key = "plan", value, ""
     else:
-        what = "a dataset record (expected), a prediction (output) and a plan"
-        return None, level, [f"none of {what} (tasks or skill_sequence)"]
+        what = "a dataset record (expected), a prediction (output), a plan (tasks, skill_sequence)"
+        return None, level, [f"none of {what}"]
     problems = _identifier_problems(value, ("id",)) if kind == "prediction" else []
     if kind == "prediction" and isinstance(plan, str):
         plan, _line, problem = decode_json(plan)

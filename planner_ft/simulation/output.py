@@ -67,7 +67,7 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     for name, (heading, *_form) in COLUMNS.items():
         cells = [cell(name, Estimate(number(one, name))) for one in quoted]
         rows.append(row(heading, cell(name, measured[name]), *cells))
-    return Table("simulation", "", CAPTION, "", tuple(names), tuple(rows))
+    return Table("", names, rows, caption=CAPTION)
 
 
 def outcome_lines(results: list[RunResult]) -> list[str]:
@@ -95,16 +95,17 @@ def results_json(done: Simulated) -> dict[str, Any]:
 def manifest(done: Simulated) -> dict[str, Any]:
     """What the results depend on."""
     settings, vocabulary = done.settings, done.plan.vocabulary
-    names = ("runs", "simulator", "tolerance", "draft", "mcap")
+    names = ("runs", "simulator", "tolerance", "draft", "mcap", "goto", "survey")
     configuration = {
         **{name: getattr(settings, name) for name in names},
         "starts": [list(start) for start in settings.starts],
         "locations": {name: list(place) for name, place in settings.locations.items()},
+        "outlines": {name: one.tolist() for name, one in settings.outlines.items()},
         "faults": [fault.text for fault in settings.faults.all],
         "origin": asdict(done.plan.origin) if done.plan.origin else None,
         "vessel": asdict(done.scene.vessel),
         "step_seconds": done.scene.seconds,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        "vocabulary": vocabulary.named,
     }
     inputs: dict[str, Path | str] = {"plan": settings.plan}
     approval = done.plan.mark

@@ -10,14 +10,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planner_ft.benchmark.gate import Kind, key_problems
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.toml_files import Kind, key_problems
 from planner_ft.document import build, read_document, write_document
 from planner_ft.document.track import Point
 from planner_ft.document.vehicle import load_vehicle
 from planner_ft.planning.locations import Position
 from planner_ft.review import approve, log_beside
 from planner_ft.review.verify import approval_of
+from planner_ft.simulation.fast import Floats
+from planner_ft.simulation.outlines import read_outlines
 from planner_ft.simulation.output import COLUMNS, cell, number, published_missions
 from planner_ft.simulation.run import MANIFEST, RESULTS, SimulationSettings, simulate
 from planner_ft.support.alone import alone
@@ -32,6 +34,7 @@ KEYS: dict[str, Kind] = {"title": str, "simulators": [str], "seed": int, "missio
 MISSION_KEYS: dict[str, Kind] = {
     **dict.fromkeys(("name", "command", "published", "survey"), str),
     "locate": dict,
+    "outlines": dict,
     "runs": int,
     "tolerance": float,
     "starts": [list],
@@ -44,7 +47,7 @@ Report = Callable[[str, int, int], None]
 @dataclass(frozen=True)
 class Mission:
     """A command and its runs; `published` names its line in published.csv, `locate` says where
-    places are, to the agents and in the world.
+    places are, to the agents and in the world; `outlines` as --outline.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Mission:
     tolerance: float
     starts: tuple[Point, ...]
     survey: str
+    outlines: Mapping[str, Floats]
 
     @property
     def folder(self) -> str:
@@ -76,10 +80,9 @@ class Suite:
 
 @dataclass
 class Ran:
-    """What a suite came to: results.json by mission and simulator, or why a mission was skipped."""
+    """What a suite came to: results.json by mission and simulator."""
 
     results: dict[tuple[str, str], dict[str, Any]] = field(default_factory=dict)
-    skipped: dict[str, str] = field(default_factory=dict)
 
 
 def read_suite(path: Path) -> Suite:
@@ -115,7 +118,9 @@ def _mission(values: Mapping[str, Any]) -> Mission:
     if published not in [one["mission"] for one in published_missions()]:
         raise PlannerError(f"published = {published!r} is no published mission")
     tolerance, runs = values.get("tolerance", 1.0), values.get("runs", 20)
-    return Mission(name, values["command"], published, places, runs, tolerance, starts, survey)
+    what = values["command"], published, places, runs, tolerance, starts, survey
+    outlines = [f"{structure}={shape}" for structure, shape in values.get("outlines", {}).items()]
+    return Mission(name, *what, read_outlines(outlines))
 
 
 def run_suite(suite: Suite, out: Path, report: Report, *, overwrite: bool = False) -> Ran:
@@ -177,9 +182,6 @@ def _run(
     suite: Suite, mission: Mission, out: Path, report: Report, agents: _Agents, ran: Ran
 ) -> None:
     plan = out / mission.folder / PLAN
-    if lacking := _lacking(mission):
-        ran.skipped[mission.name] = lacking
-        return
     log = log_beside(plan)
     if not plan.exists() or approval_of(read_document(plan), log).status == "unknown":
         agents.plan(mission, plan)
@@ -208,14 +210,9 @@ def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> Sim
         mcap=0,
         # What a killed run left is begun anew: its logs alone are there.
         overwrite=True,
+        survey=mission.survey,
+        outlines=mission.outlines,
     )
-
-
-def _lacking(mission: Mission) -> str | None:
-    """Why a mission cannot be run here."""
-    if mission.survey == "waypoints":
-        return None
-    return "skipped: no learnt survey policy is installed"
 
 
 def suite_table(suite: Suite, ran: Ran) -> Table:
@@ -226,13 +223,11 @@ def suite_table(suite: Suite, ran: Ran) -> Table:
         "Means over runs with 95 % intervals. Published figures are of another simulator, other"
         " structures and distances, so that steps, seconds and thrust are no comparison."
     )
-    return Table("missions", suite.raw["title"], caption, "mission", columns, tuple(rows), 1)
+    return Table("mission", columns, rows, 1, title=suite.raw["title"], caption=caption)
 
 
 def _rows(suite: Suite, mission: Mission, ran: Ran) -> Iterator[TableRow]:
-    if why := ran.skipped.get(mission.name):
-        yield row(f"{mission.name}: {why}", kind="section")
-    for simulator in suite.simulators if not why else ():
+    for simulator in suite.simulators:
         result = ran.results[mission.name, simulator]
         cells = [cell(name, Estimate(**result["overall"][name])) for name in COLUMNS]
         yield row(mission.name, simulator, str(len(result["runs"])), *cells)

@@ -28,6 +28,7 @@ locate = {{ Durius = [{x}, 5] }}
 runs = 2
 {more}
 """
+SURVEYED = 'survey = "learnt"\noutlines = { Durius = "2.5" }'
 HEAD = 'title = "Short"\nsimulators = ["fast", "mujoco"]\nseed = 0\n'
 
 
@@ -52,9 +53,10 @@ def ran(path: Path, out: Path, *, overwrite: bool = False) -> Ran:
 
 @pytest.mark.usefixtures("plain")
 def test_a_command_becomes_runs_in_both_simulators(tmp_path: Path) -> None:
-    path = written(tmp_path, mission("One"), mission("Two", 18, 'survey = "learnt"'))
+    path = written(tmp_path, mission("One"), mission("Two", 18, SURVEYED))
     done = ran(path, tmp_path / "out")
-    assert list(done.results) == [("One", "fast"), ("One", "mujoco")]
+    both = ("fast", "mujoco")
+    assert list(done.results) == [(name, one) for name in ("One", "Two") for one in both]
     for result in done.results.values():
         assert result["approved"] and result["overall"]["success"]["value"] == 1
         assert result["command"].startswith("Find Durius")
@@ -63,8 +65,9 @@ def test_a_command_becomes_runs_in_both_simulators(tmp_path: Path) -> None:
     (record,) = read_log(log_beside(plan))
     assert record["event"] == "approved" and "read by nobody" in record["reason"]
     table = (tmp_path / "out" / "table.md").read_text()
-    assert table.count("| 2 | 100.0 [") == 2 and table.count("| published | 20 | 100.0 |") == 2
-    assert "Two: skipped: no learnt survey policy" in table and list(done.skipped) == ["Two"]
+    assert table.count("| 2 | 100.0 [") == 4 and table.count("| published | 20 | 100.0 |") == 2
+    first = (tmp_path / "out" / "two" / "fast" / "run-01.jsonl").read_text()
+    assert '"skills":["SurveyTarget"' in first
 
 
 KILL = """
@@ -94,13 +97,12 @@ def test_a_killed_suite_goes_on(tmp_path: Path) -> None:
 
 
 def test_another_suite_needs_another_folder(tmp_path: Path) -> None:
-    skipped = mission("One", more='survey = "learnt"')
-    out = tmp_path / "out"
-    ran(written(tmp_path, skipped), out)
-    other = written(tmp_path, skipped.replace("[20", "[21"))
+    head, out = HEAD.replace(', "mujoco"', ""), tmp_path / "out"
+    ran(written(tmp_path, mission("One"), head=head), out)
+    other = written(tmp_path, mission("One", 21), head=head)
     with pytest.raises(PlannerError, match=r"results of another suite than .*--overwrite"):
         ran(other, out)
-    assert not ran(other, out, overwrite=True).results
+    assert len(ran(other, out, overwrite=True).results) == 1
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("mine")
     for overwrite in (False, True):
@@ -117,6 +119,7 @@ def test_another_suite_needs_another_folder(tmp_path: Path) -> None:
         ([mission("One", more="tolerance = 1")], HEAD, "tolerance must be a float"),
         ([mission("One", more="depth = 1.0")], HEAD, "unknown key 'depth'"),
         ([mission("One", more='survey = "sonar"')], HEAD, "must be one of waypoints, learnt"),
+        ([mission("One", more='outlines = { Durius = "x" }')], HEAD, "--outline Durius=x"),
         ([mission("One", more="starts = [[1]]")], HEAD, r"a place is no \[x, y\]"),
         ([mission("One").replace("mission 2", "mission 9")], HEAD, "is no published mission"),
         ([mission("One")], HEAD.replace("fast", "sea"), "--simulator sea: must be one of fast"),
