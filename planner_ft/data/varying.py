@@ -1,8 +1,9 @@
-"""Mission samples with other values: numbers, positions and things that command and plan share.
+"""Mission samples with other values that command and plan share, and two samples as one.
 
 A model that is trained on a hundred commands of a vehicle learns their values by heart. With other
 values in each copy of a command it learns to copy them. Numbers are found by `planner_ft.facts`,
-things by the plan's texts (`unfamiliar`), so this works for any vehicle.
+things by the plan's texts (`unfamiliar`), so this works for any vehicle. Recombined samples teach
+it to go on behind the first order (Jia and Liang 2016, arXiv:1606.03622).
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import in_words
+from planner_ft.data.rules import rule_problems
 from planner_ft.data.unfamiliar import replaced, with_unfamiliar_words
 from planner_ft.facts.geometry import tidy
 from planner_ft.facts.numbers import Number, read_numbers
@@ -25,6 +27,8 @@ TRIES = 8
 _FIGURE = re.compile(r"[-−–]?\d+(?:\.\d+)?(?![\w:/.,]*\d)")
 _FIGURES = re.compile(r"(?<![\w.\-])-?\d+(?:\.\d+)?(?![\w:/]*\d)")
 Said = dict[float, float]
+LINKS = (". Then ", ". After that ", ", then ", "; then ", ". Next, ", ". ")
+MOST_TASKS = 7
 
 
 def varied(record: dict[str, Any], vocabulary: Vocabulary, rng: Random) -> dict[str, Any] | None:
@@ -129,3 +133,39 @@ def _changed(expected: dict[str, Any], said: Said, own: set[float], drawn: Said)
         pattern = re.compile(rf"(?<![\w-])(?:{'|'.join(words)})(?![\w-])")
         result = replaced(result, pattern, lambda match: words[match[0]])
     return result  # type: ignore[no-any-return]
+
+
+# ---------------------------------------------------------------- two samples as one
+
+
+def joined(
+    first: dict[str, Any], second: dict[str, Any], vocabulary: Vocabulary, rng: Random
+) -> dict[str, Any] | None:
+    """A record that asks for both plans in this order; None where the labelling rules do not allow
+    it, one of them rules something out, or both speak of one thing.
+    """
+    plans = [record["expected"] for record in (first, second)]
+    tasks = [task for plan in plans for task in plan["tasks"]]
+    if not all(plan["tasks"] for plan in plans) or any(plan["constraints"] for plan in plans):
+        return None
+    if len(tasks) > MOST_TASKS or _named(plans[0], vocabulary) & _named(plans[1], vocabulary):
+        return None
+    link, behind = rng.choice(LINKS), second["prompt"].strip()
+    if link != ". " and behind[1:2].islower():
+        behind = behind[0].lower() + behind[1:]
+    assumptions = [text for plan in plans for text in plan["assumptions"]]
+    expected = {"tasks": tasks, "assumptions": assumptions, "constraints": []}
+    known = sum(len(rule_problems(plan, vocabulary)) for plan in plans)
+    if len(rule_problems(expected, vocabulary)) > known:
+        return None
+    prompt = first["prompt"].strip().rstrip(".!") + link + behind
+    return {**first, "prompt": prompt, "expected": expected}
+
+
+def _named(plan: dict[str, Any], vocabulary: Vocabulary) -> set[str]:
+    """The things and known places of a plan."""
+    values = [value for task in plan["tasks"] for value in task["parameters"].values()]
+    open_places = (list(vocabulary.home), list(vocabulary.unresolved))
+    return {str(value) for value in values if isinstance(value, str | list)} - {
+        str(place) for place in open_places
+    }
