@@ -35,9 +35,11 @@ def dataset_card(
     leakage: Mapping[str, Any] | None,
     seed: int | None,
     labelling: str = "",
+    *,
+    chat: bool = False,
 ) -> str:
     """The card's text: front matter, counts, coverage, lengths, diversity, leakage. Without a
-    leakage report it is that of synthetic missions.
+    leakage report it is that of synthetic missions; `chat` names the chat form, too.
     """
     import jinja2
 
@@ -72,6 +74,7 @@ def dataset_card(
         level=level,
         labelling=labelling,
         vocabulary=vocabulary,
+        configs={"default": "", **({"chat": "chat/"} if chat else {})},
         seed=seed,
         size=next((name for limit, name in SIZES if total < limit), "n>1M"),
         splits=list(splits),
