@@ -223,7 +223,7 @@ def suite_table(suite: Suite, ran: Ran) -> Table:
         "Means over runs with 95 % intervals. Published figures are of another simulator, other"
         " structures and distances, so that steps, seconds and thrust are no comparison."
     )
-    return Table("mission", columns, rows, 1, title=suite.raw["title"], caption=caption)
+    return Table("mission", columns, rows, 1, "missions", suite.raw["title"], caption)
 
 
 def _rows(suite: Suite, mission: Mission, ran: Ran) -> Iterator[TableRow]:

@@ -137,7 +137,7 @@ def class_table(played: Played, seed: int) -> Table:
             rates = [figure(_number(line[name]), decimals=0) for name in _RATES]
             errors = figure(_number(line["error"])), figure(_number(line["steps"]), decimals=0)
             rows.append(row(line["class"], *rates, *errors, kind="published"))
-    return Table("", COLUMNS, rows, title="By shape class.", caption=CAPTION)
+    return Table("", COLUMNS, rows, 0, "classes", "By shape class.", CAPTION)
 
 
 def condition_table(played: Played, seed: int) -> Table:
@@ -148,7 +148,7 @@ def condition_table(played: Played, seed: int) -> Table:
         for name, by_condition in played.items():
             rows.append(_row(name, by_condition[condition], seed))
     caption = "Over all classes; every condition but the first was never trained on."
-    return Table("", COLUMNS, rows, title="By condition.", caption=caption)
+    return Table("", COLUMNS, rows, 0, "conditions", "By condition.", caption)
 
 
 _RATES = ("success", "collision", "lost")
