@@ -109,9 +109,16 @@ class Staging:
         return frozenset(name for name, one in known.items() if one.docks or one.pattern == "pass")
 
     def check_starts(self, starts: Sequence[Point], placed: Sequence[Structure]) -> None:
-        """Raise PlannerError for a start in a structure, and one that a fence excludes."""
+        """Raise PlannerError for a start in a structure, and for one or a home that a fence
+        excludes.
+        """
         import numpy as np
 
+        home = self.vocabulary.home
+        for polygon in self.fences if home not in starts else ():
+            if polygon.outside_by(np.array([home]))[0] > 0:
+                problem = "a fence of the plan excludes home, where runs that fail return to"
+                raise PlannerError(f"{problem}; plan with another fence")
         for start in starts:
             shown = f"[{start[0]:g}, {start[1]:g}]"
             for one in placed:

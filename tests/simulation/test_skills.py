@@ -113,6 +113,12 @@ def test_avoidance_goes_round_what_a_leg_would_hit(run: Run) -> None:
     assert all(one.success and (one.clearance or 0) > 4 for one in round_it.results)
 
 
+def test_a_way_from_afar_goes_round_what_stands_in_it(run: Run) -> None:
+    done = run([transit(-10, 0)], how={"chart": {"wreck buoy": (20.0, 0.0)}}, starts=((45.0, 0.0),))
+    assert all(one.success and (one.clearance or 0) > 6 for one in done.results)
+    assert [one.clearance_violations for one in done.results] == [0, 0]
+
+
 def test_a_boundary_holds_the_vehicle_until_the_step_fails(run: Run) -> None:
     corners = [[-20, -20], [15, -20], [15, 20], [-20, 20]]
     fenced = [("BoundaryEnforcement", {"poly_coords": corners})]
