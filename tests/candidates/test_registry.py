@@ -147,7 +147,7 @@ def test_another_vehicle_is_planned_for_by_the_reader() -> None:
     reader = embedded.serving(drone)
     assert reader.name == "embedded-reader" and reader.folder is not None
     assert reader.serving(drone) is reader and not reader.knows(drone)
-    assert reader.adapter_defaults("mission")["vocabulary_in_prompt"]
+    assert reader.adapter_defaults("mission")["vary"]
     other = Candidate("other")
     assert other.serving(drone) is other
 
