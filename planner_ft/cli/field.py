@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.cli.options import typed
 from planner_ft.cli.progress import interruptible
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
@@ -48,10 +49,11 @@ def run_field(
     vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
     paths = case_files(files)
     cases = load_cases(paths, vocabulary)[: named.get("limit")]
-    _check_out(out, run.FILES, overwrite=overwrite)
-    found, manifest = _judged("field", cases, named, vocabulary, device, paths)
-    rows = [run.FieldRow(*name, judged) for name, judged in found.items()]
-    run.write_field(out, rows, manifest)
+    with alone(out, "--out", "a benchmark"):
+        _check_out(out, run.FILES, overwrite=overwrite)
+        found, manifest = _judged("field", cases, named, vocabulary, device, paths)
+        rows = [run.FieldRow(*name, judged) for name, judged in found.items()]
+        run.write_field(out, rows, manifest)
     _show(run.field_table(rows), out, run.FILES)
 
 
@@ -65,10 +67,11 @@ def run_both(
     vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
     path = data or demands.DEFAULT
     cases = demands.load_demands(path, vocabulary)[: named.get("limit")]
-    _check_out(out, demands.FILES, overwrite=overwrite)
-    found, manifest = _judged("both", cases, named, vocabulary, device, [path])
-    rows = [demands.demand_row(name, judged, vocabulary) for name, judged in found.items()]
-    demands.write_demands(out, rows, manifest)
+    with alone(out, "--out", "a benchmark"):
+        _check_out(out, demands.FILES, overwrite=overwrite)
+        found, manifest = _judged("both", cases, named, vocabulary, device, [path])
+        rows = [demands.demand_row(name, judged, vocabulary) for name, judged in found.items()]
+        demands.write_demands(out, rows, manifest)
     _show(demands.demand_table(rows), out, demands.FILES)
 
 
