@@ -66,9 +66,11 @@ def calibrate(
     """
     settings = PlanSettings(**named)
     vocabulary = load_vocabulary(settings.vocabulary)
+    for path in _files(data):
+        load_bench_data(path, level, vocabulary, None)  # what is wrong with it is said by its name
     agent = choose_agents(settings, vocabulary)[level]
     held_for = agent.held_for(vocabulary)
-    named_by = [held_for, *(sha256_file(path) for path in _files(data))]
+    named_by = [held_for, *(sha256_file(path) for path in data)]
     folder = out / f"{agent.candidate.slug}-{level}-{sha256_text(compact_json(named_by))[:12]}"
     joined = folder / "in" / DATA
     write_text(joined, "".join(f"{read_text(path).rstrip()}\n" for path in data))
