@@ -114,7 +114,7 @@ def test_the_next_one_removes_files_that_a_killed_one_was_writing(tmp_path: Path
     (out / ".my.notes.tmp").write_text("")
     names = [str(out / "table.md"), str(out / "figures" / "a.svg")]
     subprocess.run([sys.executable, "-c", script, *names], check=False)
-    assert len([path for path in out.rglob("*.tmp")]) == 3
+    assert len(list(out.rglob("*.tmp"))) == 3
     with alone(out, "--out", "x"):
         assert [path.name for path in out.rglob("*.tmp")] == [".my.notes.tmp"]
 
