@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
-
-from planner_ft.candidates.standins import make_standin
 
 SHAPE: dict[str, Any] = {
     "hidden_size": 896,
@@ -26,6 +25,9 @@ def make_real_shape(folder: Path, seed: int = 0) -> Path:
     """
     import torch
     from transformers import Qwen2Config, Qwen2ForCausalLM
+
+    sys.path.append(str(Path(__file__).parent.parent))
+    from scripts.make_standins import make_standin
 
     target = make_standin("Qwen2.5-3B-Instruct", folder, seed)
     settings = json.loads((target / "config.json").read_text()) | SHAPE

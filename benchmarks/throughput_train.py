@@ -44,7 +44,7 @@ from planner_ft.training.model import (
     unpack,
 )
 from planner_ft.training.report import Report, read_log
-from planner_ft.training.samples import Sample, read_split, render_split
+from planner_ft.training.samples import Sample, read_split
 from planner_ft.training.settings import PUBLISHED, TrainSettings
 from planner_ft.vocabulary import load_vocabulary
 
@@ -240,7 +240,7 @@ def measure(options: argparse.Namespace, candidate: Candidate, folder: Path) -> 
     split = read_split(TRAIN, "mission", vocabulary, problems)
     if split is None or problems:
         raise SystemExit("; ".join(problems))
-    samples = render_split(split, "mission", tokenizer, vocabulary).samples
+    samples = split.rendered(tokenizer).samples
     rows = []
     for batch_size in options.batch_sizes:
         settings = settings_of(options, batch_size)

@@ -39,7 +39,7 @@ def chart(drone: Results, surface: Results) -> Chart:
             rows.append(row(f"{vehicle}, {one.configuration}: {words}", *bar))
             groups.append(words)
     title = "A new vehicle, and the one that the base knows"
-    table = Table("demo", title, "", "System", ("share, with 95 % intervals", ""), tuple(rows))
+    table = Table("System", ("share, with 95 % intervals", ""), rows, name="demo", title=title)
     return Chart("bars", table, groups=tuple(groups))
 
 
@@ -85,7 +85,7 @@ def main() -> None:
     drone, surface = (read_results(out / name)[0] for name in ("drone", "surface"))
     rows = section("Inspection drone, new to the base", drone)
     rows += section("Surface vehicle, as shipped", surface)
-    table = Table("demo", "", "", "", tuple(METRIC[one].title for one in COLUMNS), tuple(rows))
+    table = Table("", [METRIC[one].title for one in COLUMNS], rows)
     said = sentences(drone, surface, read_json(out / "adapter" / "manifest.json"))
     text = "\n".join([markdown_table(table), *(f"- {one}" for one in said)]) + "\n"
     write_text(out / "demo.md", text)

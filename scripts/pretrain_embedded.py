@@ -70,6 +70,7 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
         arguments.unfamiliar_share,
         arguments.vehicle_share,
         arguments.vehicles,
+        arguments.packs,
     )
     drawn = (arguments.shard_samples, settings.longest, mixture)
     jobs = [
@@ -161,7 +162,7 @@ def corpus_summary(work: Path) -> dict[str, Any]:
     parts = [json.loads(path.read_text()) for path in sorted((work / "corpus").glob("*.json"))]
     sums = {
         key: sum(part.get(key, 0) for part in parts)
-        for key in ("samples", "tokens", "left_out", "drills")
+        for key in ("samples", "tokens", "left_out", "drills", "packs")
     }
     mixtures = [part["mixture"] for part in parts if "mixture" in part]
     return {
@@ -224,6 +225,12 @@ def main() -> None:
         type=float,
         default=0.0,
         help="missions of those vehicles among all missions",
+    )
+    parser.add_argument(
+        "--packs",
+        type=float,
+        default=0.0,
+        help="groups of samples with the vocabulary of a renamed vehicle in their prompt, per sample",
     )
     parser.add_argument("--corpus-seed", type=int, default=1000)
     parser.add_argument("--tokenizer-samples", type=int, default=20_000)

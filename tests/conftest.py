@@ -24,7 +24,7 @@ def standins(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the stand-ins of the seven published candidates, to be named by
     PLANNERFT_MODELS. Do not write to it.
     """
-    from planner_ft.candidates.standins import make_all_standins
+    from scripts.make_standins import make_all_standins
 
     folder = tmp_path_factory.mktemp("standins")
     make_all_standins(folder)

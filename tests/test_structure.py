@@ -34,7 +34,8 @@ ALLOWED = {package: set(ORDER[:place]) for place, package in enumerate(ORDER)} |
     "model_export": set(ORDER[: ORDER.index("decoding") + 1]),
     "pretraining": set(ORDER[: ORDER.index("training") + 1]),
     "simulation": {*ORDER, "benchmark"},
-    "cli": {*ORDER, "benchmark", "report", "model_export", "pretraining", "simulation"},
+    "skills": {"support", "vocabulary", "simulation", "benchmark"},
+    "cli": {*ORDER, "benchmark", "report", "model_export", "pretraining", "simulation", "skills"},
 }
 """What each package may import of the others."""
 

@@ -1,3 +1,1 @@
-"""Measuring candidates: metrics, statistics, runs that resume, tables and the gate. Scoring imports
-no torch.
-"""
+"""Metrics, statistics, runs that resume, tables and the gate. Scoring imports no torch."""

@@ -1,8 +1,5 @@
 """Systems without a model: the most frequent plan of the training split, and the plan of its most
-similar command.
-
-A candidate that does not beat them has learnt nothing from the training split that looking it up
-would not give.
+similar command. A candidate that does not beat them has learnt no more than looking up would give.
 """
 
 from __future__ import annotations
@@ -40,9 +37,7 @@ Plan = dict[str, Any]
 
 @dataclass(frozen=True)
 class Baselines:
-    """The answers of each baseline by sample id, none where there is no training split for the
-    data; `notes` are for the reader.
-    """
+    """Answers by baseline and sample id, none without a training split; notes for the reader."""
 
     answers: dict[str, dict[str, Line]] = field(default_factory=dict)
     training: dict[str, Any] | None = None
@@ -50,9 +45,7 @@ class Baselines:
 
 
 def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
-    """Both baselines for the samples of `data`. They are not measured on the split that they are
-    made from.
-    """
+    """Both baselines for the samples of `data`, unless that is the split they are made from."""
     training, problem = _find_training(data, vocabulary)
     if training is None:
         return Baselines(notes=(f"No baselines: {problem}.",))
@@ -79,9 +72,7 @@ def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
 
 
 def _find_training(data: BenchData, vocabulary: Vocabulary) -> tuple[BenchData | None, str]:
-    """The training split that goes with test data: beside it, in data/LEVEL, or the package's; else
-    None and why.
-    """
+    """The training split beside the data, in data/LEVEL, or the package's; else None and why."""
     command = f"`plannerft gen-data --level {data.level}` writes data/{data.level}/{TRAIN}"
     problem = f"no training split of the {data.level} level; {command}"
     for path in _places(data, vocabulary):
@@ -103,9 +94,7 @@ def _places(data: BenchData, vocabulary: Vocabulary) -> Iterator[Path]:
 
 
 def _majority(data: BenchData, training: BenchData) -> dict[str, Line]:
-    """The most frequent plan: at task level that of the same task, which the input names, or of all
-    for a task without samples.
-    """
+    """The most frequent plan, at task level of the task that the input names if it has samples."""
     groups: dict[Any, list[Sample]] = {}
     for sample in training.samples if data.level == "task" else ():
         groups.setdefault(sample.record.get("task"), []).append(sample)
@@ -118,10 +107,7 @@ def _majority(data: BenchData, training: BenchData) -> dict[str, Line]:
 
 
 def majority_plan(level: Level, samples: Sequence[Sample]) -> Plan:
-    """The first plan with the most frequent sequence of names; at each place the most frequent
-    parameters that stand there in such plans. Of several that are equally frequent the first
-    counts.
-    """
+    """The first plan of the most frequent names, each place with the most frequent parameters."""
     sequences = [
         tuple((step, role, entry.get("title") or entry["name"]) for step, role, entry in entries)
         for entries in (_entries(level, sample.expected) for sample in samples)
@@ -149,9 +135,7 @@ def _line(sample: Sample, plan: Plan) -> Line:
 
 
 class Index:
-    """Texts to look up by TF-IDF over words, pairs of words and characters within words, with the
-    weights of Salton and Buckley 1988 and smoothed idf.
-    """
+    """Texts by TF-IDF over words, pairs and pieces of words (Salton and Buckley 1988)."""
 
     def __init__(self, texts: Sequence[str]) -> None:
         from sklearn.feature_extraction.text import TfidfVectorizer
@@ -160,9 +144,7 @@ class Index:
         self.matrix = self.vectorizer.fit_transform(texts)
 
     def nearest(self, texts: Sequence[str]) -> list[tuple[int, float]]:
-        """For each text the index of the most similar one, the first of those that are equally
-        similar, and the cosine similarity, 0 to 1.
-        """
+        """For each text the index of the most similar one, the first of equals, and the cosine."""
         queries = self.vectorizer.transform(texts)
         found: list[tuple[int, float]] = []
         for start in range(0, len(texts), ROWS):
@@ -182,9 +164,5 @@ def _features(text: str) -> list[str]:
 @functools.lru_cache(maxsize=65_536)
 def _pieces(word: str) -> tuple[str, ...]:
     padded = f"<{word}>"
-    pieces = (
-        padded[start : start + length]
-        for length in CHARACTERS
-        for start in range(len(padded) - length + 1)
-    )
-    return (word, *pieces)
+    spans = ((at, at + n) for n in CHARACTERS for at in range(len(padded) - n + 1))
+    return (word, *(padded[start:end] for start, end in spans))

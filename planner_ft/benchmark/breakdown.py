@@ -1,6 +1,4 @@
-"""A row taken apart: figures per name, role and type of parameter, which name stands for which,
-examples of failures.
-"""
+"""A row taken apart: by name, role and type of parameter, substitutions, examples of failures."""
 
 from __future__ import annotations
 
@@ -33,8 +31,8 @@ def breakdown(scores: Scores) -> Breakdown:
     omitted, `expected` null: added). `failure_examples`: ids by kind of failure. `stops`: answers
     that cannot be carried out, by the condition that does not hold and the title of the first task
     that stops. `slots`: facts that the inputs state, by kind, and those that reached parameters and
-    task prompts. `confidence`, where it is known of any answer: the figures of `confidence_figures`,
-    `not_known` answers, and whether it is `calibrated`.
+    task prompts. `confidence`, where any answer has one: `confidence_figures`, `not_known` answers,
+    and whether it is `calibrated`.
     """
     families = [score.family for score in scores]
     entries = [(score.alignment.predicted, score.alignment.expected) for score in scores]
@@ -45,6 +43,10 @@ def breakdown(scores: Scores) -> Breakdown:
     replaced = Counter(pair for score in scores for pair in substitutions(score.alignment))
     frequent = sorted(replaced.items(), key=lambda one: (-one[1], *(name or "" for name in one[0])))
     ungrounded = [score.id for score in scores if score.details.get("ungrounded")]
+    failed = {
+        kind: list(dict.fromkeys(score.id for score in scores if score.failure == kind))[:SHOWN]
+        for kind in FAILURES
+    }
     return {
         **found,
         "per_type": _per_type(scores, families),
@@ -52,7 +54,7 @@ def breakdown(scores: Scores) -> Breakdown:
             {"expected": expected, "predicted": predicted, "n": count}
             for (expected, predicted), count in frequent
         ],
-        "failure_examples": _failure_examples(scores),
+        "failure_examples": {kind: ids for kind, ids in failed.items() if ids},
         "stops": _stops(scores),
         "slots": _slots(scores, families),
         "ungrounded_examples": ungrounded[:SHOWN],
@@ -61,25 +63,14 @@ def breakdown(scores: Scores) -> Breakdown:
 
 
 def _confidence(scores: Scores) -> dict[str, Any]:
-    found = [
-        (score.details["confidence"], score.failure is None)
-        for score in scores
-        if score.details.get("confidence") is not None
-    ]
-    if not found:
+    known = [score for score in scores if score.details.get("confidence") is not None]
+    if not known:
         return {}
     calibrated = any(score.details.get("calibrated") for score in scores)
-    beside = {"calibrated": calibrated, "not_known": len(scores) - len(found)}
-    return {"confidence": {**beside, **confidence_figures(*zip(*found, strict=True))}}
-
-
-def _failure_examples(scores: Scores) -> dict[str, list[str]]:
-    """The first ids of wrong answers of each kind that there is."""
-    found = {
-        kind: list(dict.fromkeys(score.id for score in scores if score.failure == kind))
-        for kind in FAILURES
-    }
-    return {kind: ids[:SHOWN] for kind, ids in found.items() if ids}
+    held = [score.details["confidence"] for score in known]
+    found = confidence_figures(held, [score.failure is None for score in known])
+    beside = {"calibrated": calibrated, "not_known": len(scores) - len(known)}
+    return {"confidence": {**beside, **found}}
 
 
 def _stops(scores: Scores) -> Lines:
@@ -95,9 +86,7 @@ def _stops(scores: Scores) -> Lines:
 
 
 def _slots(scores: Scores, families: Sequence[str]) -> Lines:
-    """Per kind of slot: how many are stated, and how many reached the right parameters and (mission
-    level) task prompts, with the shares.
-    """
+    """Stated slots per kind, and how many, and which share, reached parameters and task prompts."""
     lines: Lines = []
     for kind in KINDS:
         counts = [score.details.get("slots", {}).get(kind, (0, 0, 0)) for score in scores]
@@ -117,33 +106,20 @@ def _per(counted: Sequence[dict[str, Counts]], families: Sequence[str], heading:
     for name in {name for counts in counted for name in counts}:
         column = [counts.get(name, Counts(0, 0, 0)) for counts in counted]
         right, predicted, expected = (sum(part) for part in zip(*column, strict=True))
-        of_predicted = _share(((one.right, one.predicted) for one in column), families)
-        of_expected = _share(((one.right, one.expected) for one in column), families)
-        lines.append(
-            {
-                heading: name,
-                "expected": expected,
-                "predicted": predicted,
-                "right": right,
-                "samples": sum(one.expected > 0 for one in column),
-                "precision": of_predicted.to_json(),
-                "recall": of_expected.to_json(),
-                "f1": _f1(column, families).to_json(),
-            }
-        )
+        # With J the share of right ones among all that were expected or predicted (Jaccard 1912),
+        # F1 is 2 J / (1 + J), which grows with J: its bounds hold for names seen once, too.
+        either = _share(((one.right, sum(one[1:]) - one.right) for one in column), families)
+        bounds = [None if j is None else 2 * j / (1 + j) for j in either.to_json().values()]
+        samples = sum(one.expected > 0 for one in column)
+        line = {heading: name, "expected": expected, "predicted": predicted, "right": right}
+        shares = {
+            "precision": _share(((one.right, one.predicted) for one in column), families),
+            "recall": _share(((one.right, one.expected) for one in column), families),
+            "f1": Estimate(*bounds),
+        }
+        figures = {key: share.to_json() for key, share in shares.items()}
+        lines.append({**line, "samples": samples, **figures})
     return sorted(lines, key=lambda line: (-line["expected"], line[heading]))
-
-
-def _f1(column: Sequence[Counts], families: Sequence[str]) -> Estimate:
-    """F1 with an interval that holds for names seen once, which a bootstrap has nothing to resample
-    of.
-
-    With J the share of right ones among all that were expected or predicted (Jaccard 1912), F1 is 2
-    J / (1 + J), which grows with J: the bounds of J give those of F1.
-    """
-    either = ((one.right, one.predicted + one.expected - one.right) for one in column)
-    bounds = _share(either, families).to_json().values()
-    return Estimate(*(None if bound is None else 2 * bound / (1 + bound) for bound in bounds))
 
 
 def _share(counts: Iterable[tuple[int, int]], families: Sequence[str]) -> Estimate:

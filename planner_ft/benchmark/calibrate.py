@@ -1,6 +1,4 @@
-"""Calibration: answers to validation data are made, scored, and turned into the probability that a
-part of a plan is right (planner_ft.confidence).
-"""
+"""Calibration: scored answers to validation data become the probability that a part is right."""
 
 from __future__ import annotations
 
@@ -10,10 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import PREDICTIONS, RUN
+from planner_ft.benchmark.folder import PREDICTIONS, RUN, records_by_key
 from planner_ft.benchmark.metrics.confidence import confidence_figures
 from planner_ft.benchmark.metrics.values import agreeing_keys, parameters_agree
-from planner_ft.benchmark.records import records_by_key
 from planner_ft.benchmark.runner import Progress, run_bench
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.scoring import SampleScore, score_sample
@@ -23,16 +20,8 @@ from planner_ft.confidence.choices import from_json
 from planner_ft.confidence.parts import Kind, Part, parts
 from planner_ft.planning.agents import silent
 from planner_ft.planning.settings import PlanSettings, choose_agents
+from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import (
-    compact_json,
-    read_json,
-    read_text,
-    sha256_file,
-    sha256_text,
-    write_json,
-    write_text,
-)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -59,21 +48,23 @@ def calibrate(
     level: Level, data: Sequence[Path], out: Path, progress: Progress = silent, **named: Any
 ) -> tuple[Path, dict[str, Any]]:
     """Calibrate an agent on files of validation data and write the calibration beside its adapter,
-    or in its candidate's folder; returns the file and the figures of `manifest`.
-
-    `named` are those of PlanSettings. Answers are kept in `out`, and those that are there are not
-    made again. Raises PlannerError.
+    or in its candidate's folder; returns the file and the figures of `manifest`. `named` are those
+    of PlanSettings. Answers are kept in `out`, and those that are there are not made again. Raises
+    PlannerError.
     """
     settings = PlanSettings(**named)
     vocabulary = load_vocabulary(settings.vocabulary)
-    for path in _files(data):
+    if not data:
+        raise PlannerError("name at least one file of validation data")
+    for path in data:
         load_bench_data(path, level, vocabulary, None)  # what is wrong with it is said by its name
     agent = choose_agents(settings, vocabulary)[level]
     held_for = agent.held_for(vocabulary)
-    named_by = [held_for, *(sha256_file(path) for path in data)]
-    folder = out / f"{agent.candidate.slug}-{level}-{sha256_text(compact_json(named_by))[:12]}"
+    texts = [files.read_text(path).rstrip() for path in data]
+    digest = files.sha256_text(files.compact_json([held_for, *map(files.sha256_file, data)]))[:12]
+    folder = out / f"{agent.candidate.slug}-{level}-{digest}"
     joined = folder / "in" / DATA
-    write_text(joined, "".join(f"{read_text(path).rstrip()}\n" for path in data))
+    files.write_text(joined, "".join(f"{text}\n" for text in texts))
     samples = load_bench_data(joined, level, vocabulary, None)
     adapters = (str(agent.adapter),) if agent.adapter else ()
     run = BenchSettings(
@@ -90,7 +81,9 @@ def calibrate(
         resume=True,
     )
     run_bench(run, progress)
-    calibration = fitted(level, samples, _lines(run.folder), vocabulary)
+    (key,) = files.read_json(run.folder / RUN)["keys"].values()
+    lines = records_by_key(run.folder / PREDICTIONS).get(key, {})
+    calibration = fitted(level, samples, lines, vocabulary)
     manifest = build_manifest(
         "calibrate",
         seed=None,
@@ -100,7 +93,7 @@ def calibrate(
         **calibration.manifest,
     )
     path = agent.calibration
-    write_json(path, Calibration(level, calibration.curves, manifest).to_json())
+    files.write_json(path, Calibration(level, calibration.curves, manifest).to_json())
     return path, manifest
 
 
@@ -188,18 +181,3 @@ def _held_out(judged: Sequence[Judged], names: Sequence[str]) -> dict[str, Any]:
         found += [(curve.probability(one.part), one.right) for one in inside]
     figures = confidence_figures(*zip(*found, strict=True)) if found else {}
     return {name: value for name, value in figures.items() if name not in ("curve", "bins")}
-
-
-def _files(data: Sequence[Path]) -> Sequence[Path]:
-    """The files themselves. Raises PlannerError where there are none."""
-    if not data:
-        raise PlannerError("name at least one file of validation data")
-    for one in data:
-        if not one.is_file():
-            raise PlannerError(f"{one}: no such file")
-    return data
-
-
-def _lines(folder: Path) -> dict[str, dict[str, Any]]:
-    (key,) = read_json(folder / RUN)["keys"].values()
-    return records_by_key(folder / PREDICTIONS).get(key, {})

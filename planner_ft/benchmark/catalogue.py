@@ -1,6 +1,4 @@
-"""Every metric of results.json, read from catalogue.toml: how it is summed up from the values of
-samples (keys of scores.jsonl), and how tables show it.
-"""
+"""Every metric of results.json (catalogue.toml): how it is summed up and shown."""
 
 from __future__ import annotations
 
@@ -11,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.support.tables import Cell, figure
+from planner_ft.support.tables import Cell
 
 Kind = Literal["rate", "mean", "ratio"]
 
@@ -52,9 +50,7 @@ class Metric:
         return f"{self.heading} {self.better}".strip()
 
     def terms(self, score: Mapping[str, Any]) -> tuple[float, float] | None:
-        """Numerator and denominator of a sample (a line of scores.jsonl); None where it says nothing
-        about the metric.
-        """
+        """Numerator and denominator of a sample (a line of scores.jsonl); None: it says nothing."""
         top, below = self.over if self.kind == "ratio" else (self.name, "")
         if score.get(below or top) is None:
             return None
@@ -69,23 +65,19 @@ class Metric:
     def cell(self, found: Estimate, mark: str = "", *, published: bool = False) -> Cell:
         """A figure with its interval; published latencies have one decimal."""
         decimals = min(1, self.decimals) if published and not self.fraction else self.decimals
-        bounds = found.value, found.low, found.high
-        return figure(*bounds, scale=self.scale, decimals=decimals, mark=mark)
+        return found.cell(scale=self.scale, decimals=decimals, mark=mark)
 
 
 _RAW: dict[str, Any] = tomllib.loads(Path(__file__).with_name("catalogue.toml").read_text("utf-8"))
-_METRICS: dict[str, dict[str, Any]] = {**_RAW["metrics"], **_RAW["families"]}
 METRIC = {
     name: Metric(name, **values | {"over": tuple(values.get("over", Metric.over))})
-    for name, values in _METRICS.items()
+    for name, values in {**_RAW["metrics"], **_RAW["families"]}.items()
 }
 CATALOGUE = tuple(metric for metric in METRIC.values() if not metric.worst)
-FAMILIES = tuple(metric for metric in METRIC.values() if metric.worst)
-"""Metrics of phrasing families with at least two samples."""
+"""Those that are not of phrasing families with at least two samples."""
 METRICS = tuple(METRIC)
 """Names of the metrics in results.json and in gate files."""
 MAIN: tuple[str, ...] = tuple(_RAW["first"]["main"])
 RIGHT: tuple[str, ...] = tuple(_RAW["first"]["right"])
-SECTIONS: tuple[tuple[str, tuple[str, ...]], ...] = tuple(
-    (title, tuple(names)) for title, names in _RAW["sections"].items()
-)
+SECTIONS: dict[str, list[str]] = _RAW["sections"]
+"""Names of metrics by the heading of their table."""

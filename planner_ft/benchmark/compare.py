@@ -5,25 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
-
-from rich.console import Console
-from rich.text import Text
+from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import CATALOGUE, METRIC, Metric
-from planner_ft.benchmark.contrasts import Scores, by_system
+from planner_ft.benchmark.contrasts import DEFAULT_METRICS, Scores, by_system
 from planner_ft.benchmark.folder import SCORES, read_results
-from planner_ft.benchmark.paired import paired
+from planner_ft.benchmark.paired import EXPLAINED, MARGIN, Comparison, adjusted, p_text, paired
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.statistics import CONFIDENCE, RESAMPLES
-from planner_ft.benchmark.verdicts import (
-    DEFAULT_METRICS,
-    EXPLAINED,
-    MARGIN,
-    Comparison,
-    adjusted,
-    p_text,
-)
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.tables import (
     Cell,
@@ -37,6 +26,9 @@ from planner_ft.support.tables import (
     terminal_table,
 )
 
+if TYPE_CHECKING:
+    from rich.console import Console
+
 SHOWN = 5
 """Ids that a note names before it only counts the rest."""
 __all__ = ["DEFAULT_METRICS", "CompareSettings", "compare_runs", "print_report", "render_report"]
@@ -49,9 +41,7 @@ CSV = (
 
 @dataclass(frozen=True)
 class RunRow:
-    """One system of a run. `name` is "candidate configuration", with the run before it where that
-    is needed to tell rows apart.
-    """
+    """One system of a run; `name` has the run before `system` where several runs have it."""
 
     name: str
     system: str
@@ -99,19 +89,12 @@ class Report:
     def to_json(self) -> dict[str, Any]:
         settings = self.settings
         runs = zip(settings.runs, self.data, strict=True)
+        method = {"confidence": CONFIDENCE, "resamples": RESAMPLES, "seed": settings.seed}
         return {
             "level": self.level,
             "runs": [{"path": str(path), "data": data} for path, data in runs],
-            "against": settings.against,
-            "same": settings.same,
-            "common": settings.common,
-            "method": {
-                "confidence": CONFIDENCE,
-                "resamples": RESAMPLES,
-                "seed": settings.seed,
-                "adjustment": "holm",
-                "margin": MARGIN,
-            },
+            **{name: getattr(settings, name) for name in ("against", "same", "common")},
+            "method": {**method, "adjustment": "holm", "margin": MARGIN},
             "comparisons": [comparison.to_json() for comparison in self.comparisons],
             "notes": list(self.notes),
         }
@@ -153,14 +136,12 @@ def run_rows(path: Path, results: Results) -> list[RunRow]:
 
 def _named_apart(rows: Sequence[RunRow], runs: Sequence[Path]) -> list[RunRow]:
     """The rows, with the name of the run before those that several runs have."""
-    names = [one.system for one in rows]
+    names, apart = [one.system for one in rows], []
     short = len({path.name for path in runs}) == len(runs)
-    return [
-        replace(one, name=f"{one.run.name if short else one.run}: {one.system}")
-        if names.count(one.system) > 1
-        else one
-        for one in rows
-    ]
+    for one in rows:
+        named = f"{one.run.name if short else one.run}: {one.system}"
+        apart.append(replace(one, name=named) if names.count(one.system) > 1 else one)
+    return apart
 
 
 def _check_same(runs: dict[Path, Results], *, common: bool) -> None:
@@ -237,9 +218,7 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def render_report(report: Report) -> dict[str, str]:
-    """The texts of comparison.md, comparison.csv (all figures unrounded, rates as fractions) and
-    comparison.tex.
-    """
+    """Texts of comparison.md, comparison.csv (unrounded, rates as fractions), comparison.tex."""
     tables, below = _tables(report), notes(report)
     lines: list[list[Any]] = [list(CSV)]
     for comparison in report.comparisons:
@@ -260,10 +239,10 @@ def render_report(report: Report) -> dict[str, str]:
 def print_report(report: Report, console: Console) -> None:
     """Print a table per pair of rows, and notes; fits 80 columns."""
     for table in _tables(report, raw=False):
-        console.print(Text(table.title, style="bold"))
+        console.print(table.title, style="bold")
         console.print(terminal_table(table))
     for note in notes(report):
-        console.print(Text(note, style="dim"))
+        console.print(note, style="dim")
 
 
 def notes(report: Report) -> list[str]:
@@ -294,7 +273,4 @@ def _tables(report: Report, *, raw: bool = True) -> list[Table]:
         of_pair = rows.setdefault(f"{one.second} against {one.first}", [])
         of_pair.append(row(metric.name, str(found.n), *shown, p_text(one.p_adjusted), verdict))
     heads = ("n", "against", "this", "difference", *(["p"] if raw else []), "p, Holm", "")
-    return [
-        Table("comparison", title, "", "Metric", heads, tuple(of_pair))
-        for title, of_pair in rows.items()
-    ]
+    return [Table("Metric", heads, of_pair, title=title) for title, of_pair in rows.items()]

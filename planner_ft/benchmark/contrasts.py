@@ -1,15 +1,15 @@
 """The comparisons that a table of results makes: configurations of one model, models with the best
-one, everything with the baselines; their marks and sentences.
+one, everything with the baselines; their marks and sentences; and what enforcing rules changed.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from planner_ft.benchmark.catalogue import METRIC, Metric
-from planner_ft.benchmark.paired import Paired, Score, paired
-from planner_ft.benchmark.verdicts import DEFAULT_METRICS, EXPLAINED, Comparison, adjusted, p_text
+from planner_ft.benchmark.paired import EXPLAINED, Comparison, Score, adjusted, holm, p_text, paired
 
 Question = Literal["configuration", "best", "baseline"]
 """configuration: a model's configurations with its first one, enforced ones with the free one of
@@ -21,37 +21,41 @@ System = tuple[str, str]
 """Candidate and configuration."""
 Scores = dict[str, list[Score]]
 """The scores of a system by sample id."""
+Wanted = list[tuple[System, System, Metric]]
 
-COMPARED = (*DEFAULT_METRICS, "schema_valid")
 DECISIVE = ("f1", "whole_plan")
-"""The metrics that say whether a baseline is beaten."""
+"""The metrics that say whether a baseline is beaten, and what enforcing changed."""
+DEFAULT_METRICS = (
+    *("f1", "exact_sequence", "parameters", "whole_plan", "hallucination"),
+    "strict_valid",
+)
+COMPARED = (*DEFAULT_METRICS, "schema_valid")
 BEST = "★"
 NOT_WORSE = ("equal", "not told apart", "better")
+RIGHT = "right"
+"""The outcome of an answer with right names, order and parameters."""
 
 
 def contrasts(
     scores: Iterable[Mapping[str, Any]], baselines: Iterable[Mapping[str, Any]], seed: int
 ) -> dict[Question, list[Comparison]]:
-    """All comparisons from the lines of scores.jsonl and baselines.jsonl, adjusted after Holm
-    within each question.
-    """
+    """All comparisons from both files of scores, adjusted after Holm within each question."""
     rows, without_model = by_system(scores), by_system(baselines)
     everything = rows | without_model
-    pairs = _configurations(list(rows))
     beside = [(first, second) for second in rows for first in without_model]
-    wanted: dict[Question, list[tuple[System, System, Metric]]] = {
-        "configuration": [(*pair, metric) for pair in pairs for metric in _metrics(COMPARED)],
+    wanted: dict[Question, Wanted] = {
+        "configuration": _by_metric(_configurations(list(rows)), COMPARED),
         "best": _with_best(rows),
-        "baseline": [(*pair, metric) for pair in beside for metric in _metrics(DECISIVE)],
+        "baseline": _by_metric(beside, DECISIVE),
     }
-
-    def compared(first: System, second: System, metric: Metric) -> tuple[str, str, Paired]:
-        found = paired(metric, everything[first], everything[second], seed)
-        return system_key(first), system_key(second), found
-
-    return {
-        question: adjusted([compared(*one) for one in asked]) for question, asked in wanted.items()
-    }
+    found: dict[Question, list[Comparison]] = {}
+    for question, asked in wanted.items():
+        pairs = []
+        for first, second, metric in asked:
+            one = paired(metric, everything[first], everything[second], seed)
+            pairs.append((system_key(first), system_key(second), one))
+        found[question] = adjusted(pairs)
+    return found
 
 
 def system_key(system: System) -> str:
@@ -68,8 +72,8 @@ def by_system(scores: Iterable[Mapping[str, Any]]) -> dict[System, Scores]:
     return rows
 
 
-def _metrics(names: Sequence[str]) -> list[Metric]:
-    return [metric for name, metric in METRIC.items() if name in names]
+def _by_metric(pairs: Sequence[tuple[System, System]], names: Sequence[str]) -> Wanted:
+    return [(*pair, one) for pair in pairs for name, one in METRIC.items() if name in names]
 
 
 def _configurations(systems: Sequence[System]) -> list[tuple[System, System]]:
@@ -84,20 +88,16 @@ def _configurations(systems: Sequence[System]) -> list[tuple[System, System]]:
     return pairs
 
 
-def _with_best(rows: Mapping[System, Scores]) -> list[tuple[System, System, Metric]]:
-    """Each candidate with the best one of the same configuration, metric by metric; the first of
-    those that are equally good.
-    """
-    found = []
+def _with_best(rows: Mapping[System, Scores]) -> Wanted:
+    """Each candidate with the best one of its configuration by each metric, the first of equals."""
+    found: Wanted = []
     for configuration in dict.fromkeys(configuration for _candidate, configuration in rows):
         systems = [system for system in rows if system[1] == configuration]
-        for metric in _metrics(COMPARED) if len(systems) > 1 else ():
-            sign = -1 if metric.better == "↓" else 1
-            values = {
-                system: metric.value(line for lines in rows[system].values() for line in lines)
-                for system in systems
-            }
-            known = {one: sign * value for one, value in values.items() if value is not None}
+        for metric in (METRIC[name] for name in METRIC if name in COMPARED and len(systems) > 1):
+            sign, known = -1 if metric.better == "↓" else 1, dict[System, float]()
+            for system in systems:
+                value = metric.value(line for lines in rows[system].values() for line in lines)
+                known |= {} if value is None else {system: sign * value}
             if known:
                 best = max(known, key=known.__getitem__)
                 found += [(best, system, metric) for system in systems if system != best]
@@ -105,9 +105,7 @@ def _with_best(rows: Mapping[System, Scores]) -> list[tuple[System, System, Metr
 
 
 def marks(found: Contrasts) -> dict[tuple[str, str], str]:
-    """Marks by (system, metric): the verdict on the configuration that the row is compared with,
-    and ★ for the best of a column and its equals.
-    """
+    """Marks by (system, metric): the verdict beside its reference; ★: best of its column."""
     marked = {(one.second, one.paired.metric): one.mark for one in found["configuration"]}
     best = {(one.first, one.paired.metric) for one in found["best"]}
     best |= {(one.second, one.paired.metric) for one in found["best"] if one.verdict in NOT_WORSE}
@@ -128,11 +126,9 @@ def legend(found: Contrasts) -> list[str]:
 
 def baseline_sentences(found: Contrasts) -> dict[str, str]:
     """By system: the baselines that it beats, and those that it is not shown to beat."""
-    rows: dict[str, list[Comparison]] = {}
-    for one in found["baseline"]:
-        rows.setdefault(one.second, []).append(one)
     sentences = {}
-    for name, comparisons in rows.items():
+    for name in dict.fromkeys(one.second for one in found["baseline"]):
+        comparisons = [one for one in found["baseline"] if one.second == name]
         beaten = _listed([one for one in comparisons if one.verdict == "better"])
         others = _listed([one for one in comparisons if one.verdict != "better"])
         parts = [f"beats {beaten}"] if beaten else []
@@ -159,3 +155,50 @@ def _listed(comparisons: Sequence[Comparison]) -> str:
         text = f"{one.paired.metric.replace('_', ' ')}: p {p_text(one.p_adjusted)}"
         by_first.setdefault(baseline_name(one.first), []).append(text)
     return " and ".join(f"the {name} ({', '.join(found)})" for name, found in by_first.items())
+
+
+def changes(scores: Iterable[Mapping[str, Any]], seed: int) -> list[dict[str, Any]]:
+    """Every enforced configuration against the free one of the same weights ("lora+state" against
+    "lora"), over the samples that both answered, as results.json has them.
+
+    `f1` and `whole_plan` are differences by sample (after minus before), `p` and `p_adjusted` their
+    p-values, the latter after Holm over all changes of a run. `seconds` and `forward_passes` are
+    ratios of the sums, None where they are not known. `outcomes` counts answers by outcome before
+    and after, "right" or a kind of failure: "hallucination → substitution" is an answer that got
+    valid and stayed wrong.
+    """
+    # Scores of earlier versions do not say whether the whole plan is right.
+    systems = by_system({**score, "whole_plan": score["failure"] is None} for score in scores)
+    made: list[dict[str, Any]] = []
+    for candidate, configuration in systems:
+        free, plus, _strength = configuration.partition("+")
+        if not plus or (candidate, free) not in systems:
+            continue
+        before, after = systems[candidate, free], systems[candidate, configuration]
+        pair = {name: paired(METRIC[name], before, after, seed) for name in DECISIVE}
+        common = [name for name in before if name in after]
+        answers = [both for name in common for both in zip(before[name], after[name], strict=False)]
+        kinds = ([score["failure"] or RIGHT for score in both] for both in answers)
+        outcomes = Counter(map(tuple, kinds)).most_common()
+        made.append(
+            {
+                "candidate": candidate,
+                "before": free,
+                "after": configuration,
+                "n": len(common),
+                **{name: one.difference.to_json() for name, one in pair.items()},
+                "seconds": _ratio(answers, "latency_s"),
+                "forward_passes": _ratio(answers, "forward_passes"),
+                "outcomes": [{"before": a, "after": b, "n": count} for (a, b), count in outcomes],
+                "p": [one.p for one in pair.values()],
+            }
+        )
+    ps = iter(holm([p for change in made for p in change["p"]]))
+    return [{**change, "p_adjusted": [next(ps) for _ in change["p"]]} for change in made]
+
+
+def _ratio(pairs: Sequence[tuple[Score, Score]], key: str) -> float | None:
+    both: list[list[Any]] = [[line.get(key) for line in pair] for pair in pairs]
+    known = [pair for pair in both if None not in pair]
+    before, after = (sum(pair[side] for pair in known) for side in (0, 1))
+    return after / before if before else None

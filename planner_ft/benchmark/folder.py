@@ -1,24 +1,29 @@
-"""The folder of a run: its files, refusing to overwrite them, writing and reading results."""
+"""The folder of a run: the files that it writes as it goes (logs of answers and timed queries, and
+run.json), and results.
+
+A run can end at any point and go on: logs are append-only and flushed line by line, and every line
+carries the key of what it depends on (`plan.Job.key`). run.json says what the folder was made with,
+so that it can be gone on with, refused, or scored again without any model.
+"""
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Sequence
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import IO, TYPE_CHECKING, Any
 
-from planner_ft.benchmark.results import Results
+from planner_ft.benchmark.results import Measured, Results, System
 from planner_ft.benchmark.tables import render_tables
+from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import (
-    iterate_jsonl,
-    make_folder,
-    read_json,
-    write_json,
-    write_jsonl,
-    write_text,
-)
 from planner_ft.vocabulary.plans import check_level
+
+if TYPE_CHECKING:
+    from planner_ft.benchmark.plan import Plan
 
 RESULTS, SCORES, BASELINES = "results.json", "scores.jsonl", "baselines.jsonl"
 PREDICTIONS, LATENCY, PLANNING = "predictions.jsonl", "latency.jsonl", "planning.jsonl"
@@ -26,48 +31,197 @@ RUN, REPORT = "run.json", "report.html"
 TABLES = ("table.md", "table.csv", "table.tex")
 SCORED = (RESULTS, SCORES, BASELINES, *TABLES)
 ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
+OTHER = "give --overwrite to start anew, or another --out"
+GO_ON = "give --resume to go on, --overwrite to start anew, or another --out"
+Line = dict[str, Any]
 
 
 def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
-    """Make the folder if need be. Raises PlannerError when it holds any of these files, cannot be
-    written, or is a file.
-    """
-    present = [name for name in names if (folder / name).exists()]
-    if present:
+    """Make the folder. Raises PlannerError when it cannot be used or holds any of these files."""
+    if present := [name for name in names if (folder / name).exists()]:
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
-    make_folder(folder)
+    files.make_folder(folder)
 
 
 def clear(folder: Path, names: Sequence[str] = ALL) -> None:
     """Remove a former run's files; others in the folder stay."""
     for name in names:
-        with contextlib.suppress(FileNotFoundError):
-            (folder / name).unlink()
+        (folder / name).unlink(missing_ok=True)
+
+
+class RecordLog:
+    """An append-only JSONL file of records with `key` and `id`, which the processes of a run share.
+    Opening drops a last line that a killed run left without its end, and reads the records. Raises
+    PlannerError when a line is damaged, or the file cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        with files.writing(path, "give another --out"):
+            # Unbuffered: after a failed write nothing is left to be written again at closing.
+            self.stream: IO[bytes] = open(path, "a+b", buffering=0)  # noqa: SIM115
+        self.stream.seek(0)
+        self.stream.truncate(self.stream.read().rfind(b"\n") + 1)
+        self.stream.seek(0, os.SEEK_END)
+        self.records: dict[tuple[str, str], Line] = {}
+        self.read()
+
+    def read(self) -> None:
+        """Read the records again, those of other processes, too."""
+        for number, record, problem in files.iterate_jsonl(self.path):
+            if not problem and not _is_record(record):
+                problem = "no record of a run (key and id are expected)"
+            if problem or record is None:
+                self.close()
+                way = "remove the line, or start with --overwrite"
+                raise PlannerError(f"{self.path}:{number}: {problem}; {way}")
+            self.records[record["key"], record["id"]] = record
+
+    def of_key(self, key: str) -> dict[str, Line]:
+        """The records of a key by sample id."""
+        return {sample: record for (known, sample), record in self.records.items() if known == key}
+
+    def append(self, record: Line) -> None:
+        """Write a record as one line, whole, at the end of the file."""
+        self.records[record["key"], record["id"]] = record
+        with files.writing(self.path, "free some space and run the command again with --resume"):
+            line = f"{files.compact_json(record)}\n".encode()
+            while line:
+                line = line[self.stream.write(line) :]
+
+    def close(self) -> None:
+        self.stream.close()
+
+    def __enter__(self) -> RecordLog:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def _is_record(record: Any) -> bool:
+    return isinstance(record, dict) and all(isinstance(record.get(n), str) for n in ("key", "id"))
+
+
+def records_by_key(path: Path) -> dict[str, dict[str, Line]]:
+    """A file's records by key and id; lines that are none, or not finished, are passed over."""
+    found: dict[str, dict[str, Line]] = {}
+    text = path.read_bytes() if path.is_file() else b""
+    for line in text[: text.rfind(b"\n") + 1].splitlines():
+        with contextlib.suppress(ValueError):
+            record = json.loads(line)
+            if _is_record(record):
+                found.setdefault(record["key"], {})[record["id"]] = record
+    return found
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """run.json. `jobs` are the parts that answers depend on, `keys` their digests, `systems` those
+    measured, all by job name; `costs` are a candidate's costs beside its queries; `settings` are
+    level, data, limit, vocabulary and seed.
+    """
+
+    jobs: dict[str, dict[str, Any]]
+    keys: dict[str, str]
+    systems: dict[str, System]
+    settings: dict[str, Any]
+    costs: dict[str, dict[str, Any]]
+
+
+def begin_run(plan: Plan, predictions: RecordLog) -> None:
+    """Write run.json. Raises PlannerError when the folder holds a run of something else."""
+    path, settings = plan.settings.folder / RUN, plan.settings
+    before: dict[str, Any] = files.read_json(path) if path.is_file() else {}
+    _check_jobs(plan, path, before.get("jobs", {}))
+    keys: dict[str, set[str]] = {}
+    for job in plan.jobs:
+        keys.setdefault(job.system.key, set()).add(job.key)
+    for record in predictions.records.values():
+        name = f"{record.get('candidate')} {record.get('configuration')}"
+        if record["key"] not in keys.get(name, {record["key"]}):
+            what = f"holds answers of {name} that are not of this run"
+            raise PlannerError(f"{predictions.path}: {what}; give --overwrite or another --out")
+    own: dict[str, dict[str, Any]] = {
+        "jobs": {job.name: job.parts for job in plan.jobs},
+        "keys": {job.name: job.key for job in plan.jobs},
+        "systems": {job.name: asdict(job.system) for job in plan.jobs},
+        "costs": {},
+    }
+    named = {name: getattr(settings, name) for name in ("level", "limit", "vocabulary", "seed")}
+    inputs = {**named, "data": str(plan.data.path), "data_sha256": plan.data.sha256}
+    merged = {name: {**before.get(name, {}), **values} for name, values in own.items()}
+    files.write_json(path, {"settings": inputs, **merged})
+
+
+def _check_jobs(plan: Plan, path: Path, recorded: dict[str, dict[str, Any]]) -> None:
+    """Jobs of one folder share level, data and vocabulary; a job is gone on with as it was."""
+    same = {name: plan.jobs[0].parts[name] for name in ("level", "data", "vocabulary")}
+    wanted = [(name, parts, same) for name, parts in recorded.items()]
+    wanted += [(job.name, recorded.get(job.name, job.parts), job.parts) for job in plan.jobs]
+    for name, before, now in wanted:
+        if changed := [part for part in now if before.get(part) != now[part]]:
+            what = " and another ".join(changed)
+            raise PlannerError(f"{path}: {name} was begun with another {what}; {OTHER}")
+
+
+def add_costs(folder: Path, candidate: str, costs: Mapping[str, Any]) -> None:
+    """Record a candidate's costs; figures that are None leave those of an earlier session."""
+    record = files.read_json(folder / RUN)
+    known = {name: value for name, value in costs.items() if value is not None}
+    record["costs"][candidate] = {**record["costs"].get(candidate, {}), **known}
+    files.write_json(folder / RUN, record)
+
+
+def read_run(folder: Path) -> RunRecord:
+    """Read run.json. Raises PlannerError when there is none, or an earlier version wrote less."""
+    path = folder / RUN
+    if not path.is_file():
+        other = "for other predictions give --predictions FILE"
+        raise PlannerError(f"{folder}: no {RUN}, so no run of `plannerft bench`; {other}")
+    record = files.read_json(path)
+    names = [field.name for field in fields(RunRecord)]
+    if not isinstance(record, dict) or not all(isinstance(record.get(n), dict) for n in names):
+        way = f"score its answers with --predictions {folder / PREDICTIONS}"
+        raise PlannerError(f"{path}: does not say what was run; {way}")
+    systems = {name: System(**system) for name, system in record["systems"].items()}
+    return RunRecord(**{name: record[name] for name in names} | {"systems": systems})
+
+
+def measured_in(
+    folder: Path, record: RunRecord, names: Sequence[str] | None = None
+) -> list[Measured]:
+    """A run's systems, or those of these jobs, with all their lines, read without locking."""
+    logs = [records_by_key(folder / name) for name in (PREDICTIONS, LATENCY)]
+    planned, found = records_by_key(folder / PLANNING), []
+    for name in record.systems if names is None else names:
+        system = record.systems[name]
+        costs = record.costs.get(system.candidate, {})
+        planning = costs.get("planning_keys", {}).get(system.configuration)
+        answers, timed = (log.get(record.keys[name], {}) for log in logs)
+        lines = [*planned.get(planning, {}).values()]
+        found.append(Measured(system, answers, timed, costs, lines))
+    return found
 
 
 def write_results(folder: Path, results: Results, more: dict[str, Any] | None = None) -> None:
-    """Write results.json (with `more` first), scores.jsonl and the tables; results.json last, so
-    that it is there only when all is.
-    """
+    """Write scores, tables and, last, results.json (`more` first): then all is there."""
     # A report of earlier results would be taken for one of these.
     (folder / REPORT).unlink(missing_ok=True)
-    write_jsonl(folder / SCORES, results.scores)
-    write_jsonl(folder / BASELINES, results.baseline_scores)
+    files.write_jsonl(folder / SCORES, results.scores)
+    files.write_jsonl(folder / BASELINES, results.baseline_scores)
     for name, text in render_tables(results).items():
-        write_text(folder / name, text)
-    write_json(folder / RESULTS, (more or {}) | results.to_json())
+        files.write_text(folder / name, text)
+    files.write_json(folder / RESULTS, (more or {}) | results.to_json())
 
 
 def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
-    """The results of a run with its scores, where they are there, and results.json as it is. Raises
-    PlannerError for a folder without results and for damaged files.
-    """
+    """A run's results with scores, and results.json as it is. Raises PlannerError."""
     path = folder / RESULTS
     if not path.is_file():
         written = "`plannerft bench` or `plannerft score --out` has written to its end"
         raise PlannerError(f"{folder}: no {RESULTS}; give a folder that {written}")
-    record = read_json(path)
-    kinds = {"level": str, "data": dict, "rows": list}
+    record, kinds = files.read_json(path), {"level": str, "data": dict, "rows": list}
     if not isinstance(record, dict) or not all(
         isinstance(record.get(key), kind) for key, kind in kinds.items()
     ):
@@ -80,7 +234,7 @@ def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
 
 def _scores(path: Path) -> Iterator[dict[str, Any]]:
     seen: set[tuple[Any, ...]] = set()
-    for number, line, problem in iterate_jsonl(path) if path.is_file() else ():
+    for number, line, problem in files.iterate_jsonl(path) if path.is_file() else ():
         if not problem and not (isinstance(line, dict) and isinstance(line.get("id"), str)):
             problem = "no score of a sample (id is expected)"
         if not problem and line is not None:

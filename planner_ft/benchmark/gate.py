@@ -1,9 +1,9 @@
-"""The regression gate: a run whose figures must not fall short of thresholds."""
+"""The regression gate, and what gate and suite files (TOML) have in common."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,16 +12,51 @@ from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.runner import Progress, run_bench
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.toml_files import Kind, key_problems, run_settings
 from planner_ft.support.errors import GateError, PlannerError
 from planner_ft.support.files import read_toml
+from planner_ft.vocabulary.plans import check_level
 
+Kind = type | list[type]
+"""The type of a key's value; [str] is a list of texts."""
+NUMBERS = ("limit", "max_new_tokens", "latency_samples", "planning_samples")
 REQUIRED = ("level", "candidate", "configuration", "thresholds")
 KEYS: dict[str, Kind] = {
     "thresholds": dict,
     **dict.fromkeys((*REQUIRED[:3], "data", "adapter", "vocabulary"), str),
-    **dict.fromkeys(("limit", "max_new_tokens", "latency_samples"), int),
+    **dict.fromkeys(NUMBERS[:3], int),
 }
+
+
+def key_problems(
+    raw: Mapping[str, Any], kinds: Mapping[str, Kind], required: Iterable[str]
+) -> list[str]:
+    """Missing, unknown and empty keys, and values of another type."""
+    problems = [f"{key} is missing" for key in required if key not in raw]
+    for key, value in raw.items():
+        kind = kinds.get(key)
+        if kind is None:
+            problems.append(f"unknown key {key!r} (there are {', '.join(kinds)})")
+        elif value == []:
+            problems.append(f"{key} is empty")
+        elif isinstance(kind, list):
+            if type(value) is not list or {*map(type, value)} != {*kind}:
+                problems.append(f"{key} must be a list of {kind[0].__name__}")
+        elif type(value) is not kind:
+            problems.append(f"{key} must be a {kind.__name__}")
+    return problems
+
+
+def run_settings(raw: Mapping[str, Any], here: Path, **given: Any) -> BenchSettings:
+    """The run that a file in the folder `here`, its paths' base, describes. Raises PlannerError."""
+    if raw.get("limit", 1) < 1:
+        raise PlannerError(f"--limit {raw['limit']}: must be at least 1")
+    vocabulary = raw.get("vocabulary", "usv")
+    return BenchSettings(
+        level=check_level(raw["level"]),
+        data=here / raw["data"] if "data" in raw else None,
+        vocabulary=str(here / vocabulary) if vocabulary.endswith(".toml") else vocabulary,
+        **given | {name: raw[name] for name in NUMBERS if name in raw},
+    )
 
 
 @dataclass(frozen=True)
@@ -54,9 +89,7 @@ class Gate:
 
 
 def load_gate(path: Path) -> Gate:
-    """Read a gate file; `data`, `adapter` and a vocabulary's path are relative to it. Raises
-    PlannerError that lists every mistake.
-    """
+    """Read a gate file; paths are relative to it. Raises PlannerError with every mistake."""
     raw, here = read_toml(path), path.parent
     if problems := key_problems(raw, KEYS, REQUIRED):
         raise PlannerError(f"{path}: {'; '.join(problems)}")
@@ -64,9 +97,8 @@ def load_gate(path: Path) -> Gate:
     if not thresholds:
         example = "write for example schema_valid = { min = 0.98 }"
         raise PlannerError(f"{path}: [thresholds] names no metric; {example}")
-    needs_latency = any(threshold.metric == "latency_s" for threshold in thresholds)
     settings = run_settings(
-        {"latency_samples": 25 if needs_latency else 0, **raw},
+        {"latency_samples": 25 if "latency_s" in raw["thresholds"] else 0, **raw},
         here,
         candidates=(raw["candidate"],),
         configurations=(raw["configuration"],),
@@ -76,15 +108,9 @@ def load_gate(path: Path) -> Gate:
 
 
 def run_gate(
-    gate: Gate,
-    out: Path,
-    progress: Progress,
-    show: Callable[[Results], Any] = lambda _results: None,
-    **changes: Any,
+    gate: Gate, out: Path, progress: Progress, show: Callable[[Results], Any], **changes: Any
 ) -> Results:
-    """Run the gate's benchmark into `out`; `show` gets the results. Raises GateError when a figure
-    falls short of its threshold.
-    """
+    """Run the gate into `out`; `show` gets the results. Raises GateError for a low figure."""
     results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
     show(results)
     found = (threshold.shortfall(results) for threshold in gate.thresholds)
@@ -100,10 +126,10 @@ def _threshold(path: Path, metric: str, bounds: Any) -> Threshold:
         raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRIC)}")
     values = bounds if isinstance(bounds, dict) else {}
     if not values or values.keys() - {"min", "max"} or {*map(type, values.values())} - {int, float}:
-        expected = (
-            f"must be a table of numbers with min or max, such as {metric} = {{ min = 0.98 }}"
+        example = f"such as {metric} = {{ min = 0.98 }}"
+        raise PlannerError(
+            f"{path}: {metric} must be a table of numbers with min or max, {example}"
         )
-        raise PlannerError(f"{path}: {metric} {expected}")
     if METRIC[metric].fraction and any(not 0 <= value <= 1 for value in values.values()):
         unit = "is a fraction between 0 and 1, as in results.json, not a percentage"
         raise PlannerError(f"{path}: {metric} {unit}")

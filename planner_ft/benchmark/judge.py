@@ -1,6 +1,4 @@
-"""Answers of a model in training to validation samples, scored: `train` shows them beside the
-loss.
-"""
+"""Scored answers of a model in training to validation samples: `train` shows them with the loss."""
 
 from __future__ import annotations
 
@@ -31,9 +29,7 @@ ROOM = 1.5
 
 
 class Judge:
-    """Free answers of the run's model to its first validation samples, with and without the
-    adapter.
-    """
+    """Free answers of the run's model to validation samples, with and without the adapter."""
 
     def __init__(self, request: TrainRequest, prepared: Prepared, run: Run) -> None:
         assert prepared.validation and prepared.tokenizer
@@ -48,49 +44,33 @@ class Judge:
     def answers(self, *, adapter: bool) -> list[Answer]:
         """The scores of the answers; those of the base are prompted as a benchmark prompts it."""
         model, level, vocabulary = self.run.model, self.request.level, self.request.vocabulary
-        told = not adapter and not self.request.candidate.knows(vocabulary)
-        queries = [
-            Query(
-                level,
-                record,
-                tuple(
-                    render_prompt(level, record, self.tokenizer, vocabulary, with_vocabulary=told)
-                ),
-            )
-            for record in self.records
-        ]
+        trained = self.request.settings.vocabulary_in_prompt
+        told = trained if adapter else not self.request.candidate.knows(vocabulary)
+        known: dict[str, Any] = {"vocabulary": vocabulary, "with_vocabulary": told}
+        prompts = (render_prompt(level, one, self.tokenizer, **known) for one in self.records)
+        pairs = zip(self.records, prompts, strict=True)
+        queries = [Query(level, record, tuple(prompt)) for record, prompt in pairs]
         with evaluating(model):
             decoder = small_form(model, adapter=adapter) if self.run.device.type == "cpu" else None
             with contextlib.ExitStack() as stack:
                 if decoder is None:
                     stack.enter_context(autocast(self.run.device, self.run.dtype))
-                    stack.enter_context(
-                        contextlib.nullcontext() if adapter else model.disable_adapter()
-                    )
-                found = generate(
-                    decoder or ModelDecoder(model, self.limits.pad_id),
-                    queries,
-                    self.limits,
-                    Method(),
-                    batch_size=BATCH,
-                )
-        return [
-            self._scored(record, answer) for record, answer in zip(self.records, found, strict=True)
-        ]
+                if decoder is None and not adapter:
+                    stack.enter_context(model.disable_adapter())
+                one = decoder or ModelDecoder(model, self.limits.pad_id)
+                found = generate(one, queries, self.limits, Method(), batch_size=BATCH)
+        return [self._scored(*pair) for pair in zip(self.records, found, strict=True)]
 
     def _scored(self, record: dict[str, Any], answer: Generation) -> Answer:
         ids = answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
         text = self.tokenizer.decode(
             list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False
         )
-        sample = Sample(record["id"], str(record.get("family") or record["id"]), record)
+        sample = Sample.of(record)
         output = {"output": without_working(str(text))[0]}
         values = score_sample(self.request.level, sample, output, self.request.vocabulary).values
-        return {
-            "id": sample.id,
-            "family": sample.family,
-            **{name: float(values[name] or 0) for name in JUDGED},
-        }
+        judged = {name: float(values[name] or 0) for name in JUDGED}
+        return {"id": sample.id, "family": sample.family, **judged}
 
     def change(self, base: Sequence[Answer], best: Sequence[Answer]) -> str:
         """What training changed, in a sentence, and where it is nothing, what to try next."""
@@ -126,9 +106,7 @@ def _values(pair: Paired, scale: int) -> str:
 
 
 def small_form(model: Any, *, adapter: bool) -> SmallModel | None:
-    """The lean form of a small model in training, its adapter merged as `read_forms` merges it;
-    None for any other model.
-    """
+    """The lean form of a small model in training, its adapter merged; None for any other model."""
     base = model.get_base_model()
     if base.num_parameters() >= SMALL_MODEL:
         return None
@@ -140,7 +118,6 @@ def small_form(model: Any, *, adapter: bool) -> SmallModel | None:
                 weight = tensors[f"{name}.weight"]
                 merged = weight.float() + module.get_delta_weight("default").float()
                 tensors[f"{name}.weight"] = merged.to(weight.dtype)
-    config = {
-        key: value for key, value in base.config.to_dict().items() if key != "quantization_config"
-    }
+    config = base.config.to_dict()
+    config.pop("quantization_config", None)
     return small_model(config, tensors)

@@ -1,15 +1,53 @@
-"""The rows of the tables: measured, published and baselines, with the notes that belong to them."""
+"""Rows of the tables: measured, published (published/*.csv), baselines; notes; in a terminal."""
 
 from __future__ import annotations
 
+import csv
+import functools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from planner_ft.benchmark import published
-from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.catalogue import MAIN, METRIC, METRICS, RIGHT
 from planner_ft.benchmark.contrasts import contrast_notes, marks
-from planner_ft.benchmark.results import Results, Row
-from planner_ft.support.tables import Table, row
+from planner_ft.benchmark.results import Results, Row, System
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
+from planner_ft.vocabulary.plans import Level
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+FOLDER = Path(__file__).parent / "published"
+SAMPLES: dict[Level, int] = {"mission": 25, "task": 500}
+CONFIGURATIONS = ("base", "lora")
+VOCABULARY = "usv"
+"""The vocabulary that the published figures are about."""
+PERCENT = ("hallucination", "schema_valid")
+
+
+@functools.cache
+def published_rows(level: Level) -> tuple[Row, ...]:
+    """The published table of a level, each model in both configurations; rates are fractions."""
+    with open(FOLDER / f"{level}.csv", encoding="utf-8", newline="") as stream:
+        lines = list(csv.DictReader(stream))
+    rows = []
+    for line, configuration in ((line, name) for line in lines for name in CONFIGURATIONS):
+        model, metrics = line["model"], {}
+        for column, text in line.items():
+            metric, _, of = column.rpartition("_")
+            if of == configuration:
+                metrics[metric] = Estimate(float(text) / (100 if metric in PERCENT else 1))
+        system = System(model, configuration, label=f"{model} (published)", published=model)
+        rows.append(Row(system, SAMPLES[level], metrics, quoted=True))
+    return tuple(rows)
+
+
+def published_source(level: Level) -> str:
+    """Where the published figures of a level come from."""
+    own = f"its own {SAMPLES[level]} test samples, model weights and hardware"
+    return f"published study ({level}-level table): {own}"
 
 
 def lines(results: Results, *, beside: bool = True) -> list[Row]:
@@ -30,51 +68,53 @@ def lines(results: Results, *, beside: bool = True) -> list[Row]:
 
 
 def shows_published(results: Results) -> bool:
-    """Whether published figures stand beside: for real candidates and the vehicle that they are
-    about.
-    """
+    """Whether published figures stand beside: for real candidates and the vehicle of the study."""
     vocabulary = results.manifest.get("configuration", {}).get("vocabulary", {}).get("name")
-    real = any(not one.system.is_standin for one in results.rows)
-    return real and vocabulary == published.VOCABULARY
+    return vocabulary == VOCABULARY and any(not one.system.is_standin for one in results.rows)
 
 
 def _published(results: Results) -> dict[str, list[Row]]:
     """Published rows by model, in the configurations of the run if it has any of theirs."""
     if not shows_published(results):
         return {}
-    every = by_candidate(published.published_rows(results.level))
     ours = {one.system.configuration for one in results.rows}
-    shown = ours & {*published.CONFIGURATIONS} or {*published.CONFIGURATIONS}
+    shown = ours & {*CONFIGURATIONS} or {*CONFIGURATIONS}
     return {
         rows[0].system.candidate: [one for one in rows if one.system.configuration in shown]
-        for rows in every
+        for rows in by_candidate(published_rows(results.level))
     }
 
 
-def known_metrics(names: Iterable[str], shown: Sequence[Row]) -> list[str]:
+def by_candidate(rows: Iterable[Row]) -> list[list[Row]]:
+    """Rows by candidate, in their order."""
+    found: dict[str, list[Row]] = {}
+    for one in rows:
+        found.setdefault(one.system.candidate, []).append(one)
+    return list(found.values())
+
+
+def _known(names: Iterable[str], shown: Sequence[Row]) -> list[str]:
     """Those of the metrics that any line has a figure for."""
     return [name for name in names if any(one.figure(name).value is not None for one in shown)]
 
 
 def metric_table(names: Iterable[str], shown: Sequence[Row], corner: str = "Model") -> Table:
     """A row per line with these metrics; a metric that no line has a figure for is left out."""
-    known = known_metrics(names, shown)
-    return _figures(shown, known, corner, ("Configuration", *(METRIC[one].title for one in known)))
+    known = _known(names, shown)
+    heads = ("Configuration", "n", *(METRIC[one].title for one in known))
+    return Table(corner, heads, _figures(shown, known), texts=1)
 
 
 def figures_table(shown: Sequence[Row]) -> Table:
     """Every metric under its name in results.json, as table.csv has them."""
-    return _figures(shown, METRICS, "model", ("configuration", *METRICS))
+    return Table("model", ("configuration", "n", *METRICS), _figures(shown, METRICS), texts=1)
 
 
-def _figures(
-    shown: Sequence[Row], metrics: Sequence[str], corner: str, heads: Sequence[str]
-) -> Table:
-    rows = tuple(
+def _figures(shown: Sequence[Row], metrics: Sequence[str]) -> list[TableRow]:
+    return [
         row(one.system.label, one.configuration, str(one.n), *one.cells(metrics), kind=one.kind)
         for one in shown
-    )
-    return Table(corner, "", "", corner, (heads[0], "n", *heads[1:]), rows, texts=1)
+    ]
 
 
 def notes(results: Results) -> list[str]:
@@ -98,7 +138,7 @@ def _about_data(results: Results) -> Iterator[str]:
         how = f"one query at a time after warm-up, mean over {timed} samples"
         yield f"Latency: {how} on the machine in results.json."
     if shows_published(results):
-        yield f"(published): figures of the {published.source(results.level)}; not measured here."
+        yield f"(published): figures of the {published_source(results.level)}; not measured here."
     if any(one.system.configuration.endswith("+grounded") for one in rows):
         yield (
             "+grounded decodes with the reader that groundedness is scored with: its share of"
@@ -111,22 +151,21 @@ def _about_rows(rows: Sequence[Row]) -> Iterator[str]:
     for system in {one.system.candidate: one.system for one in rows}.values():
         if system.pretrained:
             what = "pretrained on synthetic plans of this vocabulary"
-            general = "its Base figures are not those of a general model"
-            yield f"{system.label} was {what}: {general}."
+            yield f"{system.label} was {what}: its Base figures are not those of a general model."
         if system.is_standin:
             why = "its figures say nothing about the real candidate"
             yield f"{system.label} is a tiny, randomly initialised model: {why}."
     for one in rows:
-        empty = "count as empty outputs"
+        cut, failed = (one.finish_reasons.get(reason) for reason in ("length", "error"))
         if one.system.seen:
             yield trained_on(one)
-        if one.missing:
-            missing = f"{len(one.missing)} of {one.n} samples have no prediction"
-            yield f"{one.name}: {missing} and {empty}."
-        if cut := one.finish_reasons.get("length"):
+        if n := len(one.missing):
+            missing = f"{n} of {one.n} samples have no prediction"
+            yield f"{one.name}: {missing} and count as empty outputs."
+        if cut:
             yield f"{one.name}: {cut} of {one.n} outputs were cut at the token limit."
-        if failed := one.finish_reasons.get("error"):
-            where = f"{empty} (see predictions.jsonl)"
+        if failed:
+            where = "count as empty outputs (see predictions.jsonl)"
             yield f"{one.name}: {failed} of {one.n} samples failed and {where}."
 
 
@@ -136,9 +175,50 @@ def trained_on(one: Row) -> str:
     return f"{one.name}: {seen}; its figures say nothing about other commands."
 
 
-def by_candidate(rows: Iterable[Row]) -> list[list[Row]]:
-    """Rows by candidate, in their order."""
-    found: dict[str, list[Row]] = {}
-    for one in rows:
-        found.setdefault(one.system.candidate, []).append(one)
-    return list(found.values())
+def print_results(results: Results, console: Console) -> None:
+    """Print within 80 columns: the published metrics, right plans, published figures, notes."""
+    console.print(f"{results.level} level, n = {results.data['n']}", style="bold")
+    found = lines(results)
+    ours = [line for line in found if line.kind != "published"]
+    theirs = [line for line in found if line.kind == "published"]
+    console.print(_narrow(MAIN, ours))
+    console.print(_narrow(RIGHT, ours))
+    if theirs:
+        source = published_source(results.level)
+        console.print(f"published, not measured here: {source}", style="bold dim")
+        console.print(_narrow(MAIN, theirs))
+    for note in notes(results):
+        console.print(note, style="dim")
+
+
+def _narrow(names: Iterable[str], shown: Sequence[Row]) -> Any:
+    """A line per configuration below its model, intervals without decimals, for 80 columns."""
+    metrics = [METRIC[name] for name in _known(names, shown)]
+    rows: list[TableRow] = []
+    for line in shown:
+        label = line.system.label
+        if line.kind != "baseline":
+            if label not in [one.heading for one in rows]:
+                rows.append(row(label, kind="section"))
+            label = f"  {line.configuration}"
+        cells = zip(metrics, line.cells(one.name for one in metrics), strict=True)
+        short = [_short(cell, one.decimals if one.scale == 1 else 0) for one, cell in cells]
+        rows.append(row(label, *short, kind=line.kind))
+    return terminal_table(Table("model", [one.short or one.title for one in metrics], rows))
+
+
+def _short(cell: Cell, decimals: int) -> Cell:
+    if not cell.interval or cell.bounds is None:
+        return cell
+    low, high = (f"{bound or 0:.{decimals}f}" for bound in cell.bounds[1:])
+    return Cell(cell.text, f"{low}–{high}", cell.mark)
+
+
+def print_warnings(results: Results, console: Console) -> None:
+    """Name the samples without a prediction, and adapters that were trained on the samples."""
+    for one in results.rows:
+        if one.system.seen:
+            console.print(f"warning: {trained_on(one)}", soft_wrap=True)
+        if one.missing:
+            missing = f"no prediction for {', '.join(one.missing)}; counted as empty outputs"
+            console.print(f"{one.name}: {missing}", soft_wrap=True)

@@ -1,49 +1,54 @@
-"""Two systems on the same samples: the difference of a metric with its interval, and how likely it
-is by chance.
-"""
+"""Two systems on the same samples: the difference of a metric, its chance, and the verdict."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner_ft.benchmark.catalogue import Metric
-from planner_ft.benchmark.statistics import (
-    RESAMPLES,
-    Estimate,
-    Floats,
-    cluster_sums,
-    clustered_rate,
-    in_blocks,
-    percentiles,
-    resampled_sums,
-)
+from planner_ft.benchmark import statistics
+from planner_ft.benchmark.catalogue import METRIC, Metric
+from planner_ft.support.tables import NOTHING, Cell
 
 Score = Mapping[str, Any]
 """A line of scores.jsonl."""
 Answers = Mapping[str, Sequence[Score]]
 """The scores of a system by sample id: one per sample, or one per repeat."""
-
+UNKNOWN = statistics.Estimate(None)
 ENUMERATED = 12
-"""Families with a difference up to which all ways to swap them are tried (2**12) instead of
-RESAMPLES random ones.
-"""
+"""Differing families up to which all 2**12 swaps are tried instead of RESAMPLES random ones."""
+
+Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
+MARKS: dict[Verdict, str] = {
+    "better": "▲",
+    "higher": "▲",
+    "worse": "▼",
+    "lower": "▼",
+    "equal": "≈",
+    "not told apart": "·",
+    "not compared": "",
+}
+SIGNIFICANCE = 0.05
+MARGIN = 0.05
+"""Two systems whose difference is known to be smaller than this, at 95 %, are called equal."""
+EXPLAINED = (
+    f"▲ better and ▼ worse beyond chance (p < 0.05 after Holm), ≈ equal within {MARGIN:g} (95 %"
+    " interval), · not told apart"
+)
 
 
 @dataclass(frozen=True)
 class Paired:
-    """One metric of two systems over the samples that both answered.
+    """One metric of two systems over the `n` samples that both answered.
 
     `first` and `second` are its values, `difference` is second minus first (95 % interval, whole
     families resampled), `p` the two-sided probability of as large a difference if it made no
     difference which system answered, families being swapped whole. `p_mcnemar` is the exact McNemar
-    test of a rate, which takes all samples for independent: where they are, `p` is the same. `n`
-    counts samples.
+    test of a rate, which takes all samples for independent: where they are, `p` is the same.
     """
 
     metric: str
@@ -51,15 +56,13 @@ class Paired:
     families: int
     first: float | None
     second: float | None
-    difference: Estimate
+    difference: statistics.Estimate = UNKNOWN
     p: float | None = None
     p_mcnemar: float | None = None
 
 
 def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired:
-    """Compare two systems by a metric, over the samples for which both have a value. Repeats of a
-    sample are averaged first.
-    """
+    """Compare by a metric, over samples with a value in both; repeats are averaged first."""
     families, terms = [], []
     for name in (name for name in first if name in second):
         one, other = _terms(metric, first[name]), _terms(metric, second[name])
@@ -67,17 +70,28 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
             families.append(str(first[name][0].get("family") or first[name][0].get("id")))
             terms.append((*one, *other))
     if not terms:
-        return Paired(metric.name, 0, 0, None, None, Estimate(None))
-    sums = cluster_sums(terms, families)
+        return Paired(metric.name, 0, 0, None, None)
+    sums = statistics.cluster_sums(terms, families)
     before, after = (float(value) if np.isfinite(value) else None for value in _values(sums.sum(0)))
     if before is None or after is None:
-        return Paired(metric.name, len(terms), len(sums), before, after, Estimate(None))
-    difference = _difference(metric, terms, sums, families, after - before, seed)
+        return Paired(metric.name, len(terms), len(sums), before, after)
+    differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
+    difference = statistics.Estimate(after - before)
+    if not any(differs) and metric.fraction:
+        # No resample differs either, and the bootstrap would be sure after three samples: the bound
+        # is that of the share of samples that may differ.
+        most = statistics.clustered_rate(differs, families).high or 0.0
+        difference = statistics.Estimate(after - before, -most, most)
+    elif len(sums) > 1:
+        one, other = _values(statistics.resampled_sums(sums, seed))
+        known = (found := other - one)[np.isfinite(found)]
+        difference = statistics.Estimate(
+            after - before, *statistics.percentiles(known)
+        )  # Efron 1979
     mcnemar: float | None = None
     if metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term):
-        lost = sum(term[0] > term[2] for term in terms)
-        won = sum(term[0] < term[2] for term in terms)
         p = exact_swaps(sums[:, 2] - sums[:, 0])
+        lost, won = (sum(term[0] - term[2] == sign for term in terms) for sign in (1, -1))
         mcnemar = exact_mcnemar(lost, won)
     else:
         p = swaps(sums, seed)
@@ -85,52 +99,20 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
 
 
 def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | None:
-    """Numerator and denominator of a sample, means over its repeats; None where it says nothing
-    about the metric.
-    """
+    """A sample's numerator and denominator, means over its repeats; None where it says nothing."""
     known = [terms for score in scores if (terms := metric.terms(score))]
     above, below = (sum(column) for column in zip(*known, strict=True)) if known else (0.0, 0.0)
     return (above / len(known), below / len(known)) if known else None
 
 
-def _values(sums: Floats) -> tuple[Any, Any]:
-    """The metric of both systems from sums of (numerator, denominator) of the first and of the
-    second, along the last axis.
-    """
+def _values(sums: statistics.Floats) -> tuple[Any, Any]:
+    """The metric of both systems, from (numerator, denominator) of each along the last axis."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return sums[..., 0] / sums[..., 1], sums[..., 2] / sums[..., 3]
 
 
-def _difference(
-    metric: Metric,
-    terms: Sequence[Sequence[float]],
-    sums: Floats,
-    families: Sequence[Hashable],
-    value: float,
-    seed: int,
-) -> Estimate:
-    """The difference with its bootstrap interval (Efron 1979).
-
-    Where no sample differs no resample does, and the bootstrap would be sure of a difference of
-    nothing after three samples. A share of something then takes the bound of the share of samples
-    that may differ.
-    """
-    differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
-    if not any(differs) and metric.fraction:
-        most = clustered_rate(differs, families).high
-        assert most is not None
-        return Estimate(value, -most, most)
-    if len(sums) < 2:
-        return Estimate(value)
-    one, other = _values(resampled_sums(sums, seed))
-    found = other - one
-    return Estimate(value, *percentiles(found[np.isfinite(found)]))
-
-
 def exact_mcnemar(lost: int, won: int) -> float:
-    """Two-sided p of the exact McNemar test (1947): `lost` samples were right with the first system
-    alone, `won` with the second.
-    """
+    """Two-sided p of the exact McNemar test (1947): right by the first alone, by the second."""
     from statsmodels.stats.contingency_tables import mcnemar
 
     return float(mcnemar([[0, lost], [won, 0]], exact=True).pvalue)
@@ -152,12 +134,10 @@ def exact_swaps(differences: Iterable[float]) -> float:
     return float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum()))
 
 
-def swaps(sums: Floats, seed: int) -> float:
+def swaps(sums: statistics.Floats, seed: int) -> float:
     """Two-sided p of a difference if the two systems were swapped at random, family by family
-    (Fisher 1935; Pitman 1937).
-
-    `sums` are those of `_values`, (families, 4). All ways to swap are tried where few families
-    differ, else RESAMPLES random ones.
+    (Fisher 1935; Pitman 1937). `sums` are those of `_values`, (families, 4). All ways to swap are
+    tried where few families differ, else RESAMPLES random ones.
     """
     differing = sums[(sums[:, :2] != sums[:, 2:]).any(1)]
     count = len(differing)
@@ -165,7 +145,7 @@ def swaps(sums: Floats, seed: int) -> float:
         return 1.0
     exact = count <= ENUMERATED
     swapped = _all_swaps(count) if exact else _random_swaps(count, seed)
-    moved = in_blocks(swapped, differing[:, 2:] - differing[:, :2])
+    moved = statistics.in_blocks(swapped, differing[:, 2:] - differing[:, :2])
     whole = sums.sum(0)
     one, other = _values(np.concatenate([whole[:2] + moved, whole[2:] - moved], axis=1))
     seen_one, seen_other = _values(whole)
@@ -181,13 +161,11 @@ def _all_swaps(count: int) -> NDArray[np.int8]:
 
 @functools.lru_cache(maxsize=4)
 def _random_swaps(count: int, seed: int) -> NDArray[np.int8]:
-    return np.random.default_rng(seed).integers(0, 2, (RESAMPLES, count), dtype=np.int8)
+    return np.random.default_rng(seed).integers(0, 2, (statistics.RESAMPLES, count), dtype=np.int8)
 
 
 def holm(values: Sequence[float | None]) -> list[float | None]:
-    """p-values adjusted for how many there are (Holm 1979). None stands for a comparison that could
-    not be made; it stays None and does not count.
-    """
+    """p-values adjusted after Holm 1979; None, for no comparison, stays and does not count."""
     known = [value for value in values if value is not None]
     if not known:
         return [None] * len(values)
@@ -197,3 +175,74 @@ def holm(values: Sequence[float | None]) -> list[float | None]:
     adjusted[order] = np.minimum(np.maximum.accumulate(steps), 1)
     each = iter(adjusted.tolist())
     return [None if value is None else next(each) for value in values]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """`second` against `first` by one metric; `p_adjusted` is Holm's over the same table."""
+
+    first: str
+    second: str
+    paired: Paired
+    p_adjusted: float | None
+
+    @property
+    def verdict(self) -> Verdict:
+        return verdict(self.paired.metric, self.paired.difference, self.p_adjusted)
+
+    @property
+    def mark(self) -> str:
+        return MARKS[self.verdict]
+
+    def difference(self) -> Cell:
+        """The difference with its interval and mark."""
+        return difference_cell(self.paired.metric, self.paired.difference, self.mark)
+
+    def to_json(self) -> dict[str, Any]:
+        """As results.json and comparison.json have it."""
+        values = asdict(self.paired)
+        named = {"first": self.first, "second": self.second, "metric": values.pop("metric")}
+        named |= {f"{end}_value": values.pop(end) for end in ("first", "second")}
+        return {**named, **values, "p_adjusted": self.p_adjusted, "verdict": self.verdict}
+
+    @classmethod
+    def from_json(cls, record: Mapping[str, Any]) -> Comparison:
+        """A comparison as `to_json` wrote it."""
+        values = {key: record[key] for key in ("metric", "n", "families", "p", "p_mcnemar")}
+        values |= {end: record[f"{end}_value"] for end in ("first", "second")}
+        found = Paired(**values, difference=statistics.Estimate(**record["difference"]))
+        return cls(record["first"], record["second"], found, record["p_adjusted"])
+
+
+def verdict(name: str, difference: statistics.Estimate, p_adjusted: float | None) -> Verdict:
+    """Real: adjusted p under 0.05; equal: known to differ by less than MARGIN; else unknown."""
+    metric = METRIC.get(name)
+    if difference.value is None or p_adjusted is None:
+        return "not compared"
+    better = metric.better if metric else "↑"
+    up = difference.value > 0
+    if p_adjusted < SIGNIFICANCE:
+        if not better:
+            return "higher" if up else "lower"
+        return "better" if up == (better == "↑") else "worse"
+    low, high = difference.low, difference.high
+    within = low is not None and high is not None and low >= -MARGIN and high <= MARGIN
+    return "equal" if within and (metric is None or metric.fraction) else "not told apart"
+
+
+def adjusted(found: Sequence[tuple[str, str, Paired]]) -> list[Comparison]:
+    """Comparisons (first, second, figures) of one table, their p-values adjusted together."""
+    ps = holm([one.p for _first, _second, one in found])
+    return [Comparison(*one, p) for one, p in zip(found, ps, strict=True)]
+
+
+def p_text(p: float | None) -> str:
+    """A p-value as tables show it."""
+    return NOTHING if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def difference_cell(name: str, found: statistics.Estimate, mark: str = "") -> Cell:
+    """A difference with its sign, interval and mark, in the unit of its metric."""
+    metric = METRIC[name]
+    decimals = 3 if metric.scale == 1 and metric.fraction else metric.decimals
+    return found.cell(scale=metric.scale, decimals=decimals, mark=mark, sign=True)

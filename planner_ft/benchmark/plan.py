@@ -1,10 +1,9 @@
-"""Before anything is loaded: which candidates in which configurations, all checked, and everything
-that an answer depends on.
-"""
+"""Candidates in configurations, all checked before loading, and what an answer depends on."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,21 +11,7 @@ from typing import Any
 from planner_ft.benchmark.results import System
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
-from planner_ft.candidates import Candidate, all_candidates, resolve_candidate
-from planner_ft.candidates.adapters import (
-    CONFIG,
-    WEIGHTS,
-    adapter_folder,
-    check_adapter,
-    find_adapter,
-    seen_in_training,
-)
-from planner_ft.candidates.loading import (
-    compute_dtype,
-    load_tokenizer,
-    require_folder,
-    resolve_device,
-)
+from planner_ft.candidates import Candidate, adapters, all_candidates, loading, resolve_candidate
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
 from planner_ft.confidence.calibration import Calibration, calibration_file, read_calibration
@@ -47,23 +32,27 @@ TOKENIZER_FILES = (
 )
 SERVER_SEED = 0
 """Sent to servers with temperature 0, for those that break ties by chance."""
+SERVED = "base, lora (a fine-tuned model, told no vocabulary), base+schema and lora+schema"
+Parts = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Job:
-    """One candidate in one configuration, one repeat of it where answers are sampled. `parts` is
-    everything that its answers depend on, by name.
-    """
+    """A candidate in a configuration, once per repeat; `parts` is all that answers depend on."""
 
     candidate: Candidate
     configuration: Configuration
-    adapter: Path | None
-    quantization: Quantization
-    with_vocabulary: bool
-    parts: dict[str, Any]
+    parts: Parts
     system: System
-    threads: int | None
+    adapter: Path | None = None
+    quantization: Quantization = "none"
+    threads: int | None = None
     sampling: Sampling | None = None
+
+    @property
+    def with_vocabulary(self) -> bool:
+        """Whether prompts list the vocabulary."""
+        return bool(self.system.with_vocabulary)
 
     @property
     def key(self) -> str:
@@ -73,12 +62,10 @@ class Job:
     @property
     def name(self) -> str:
         repeat = f" #{self.sampling.repeat}" if self.sampling else ""
-        return f"{self.candidate.name} {self.configuration.name}{repeat}"
+        return f"{self.system.key}{repeat}"
 
     def calibration(self) -> Calibration | None:
-        """What turns its log-probabilities into confidence, where it was calibrated. Raises
-        PlannerError for a damaged file.
-        """
+        """What turns its log-probabilities into confidence, if anything. Raises PlannerError."""
         folder = self.adapter or self.candidate.folder
         if folder is None or self.sampling is not None:
             return None
@@ -99,18 +86,16 @@ class Job:
         return {**names, **({"repeat": self.sampling.repeat} if self.sampling else {})}
 
     def repeated(self, settings: BenchSettings) -> list[Job]:
-        """The job once for every repeat, each with its own random numbers and its own key; the job
-        itself where decoding is greedy.
-        """
+        """The job once per repeat, with random numbers and a key of its own; greedy: itself."""
         temperature, top_p, seed = settings.temperature, settings.top_p, settings.seed
         if temperature == 0:
             return [self]
-        drawn = {"temperature": temperature, "top-p": top_p, "seed": seed}
+        drawn = {**self.parts, "temperature": temperature, "top-p": top_p, "seed": seed}
         return [
             replace(
                 self,
                 sampling=Sampling(temperature, top_p, seed, repeat),
-                parts={**self.parts, **drawn, "repeat": repeat},
+                parts={**drawn, "repeat": repeat},
                 system=replace(self.system, repeat=repeat),
             )
             for repeat in range(1, settings.repeats + 1)
@@ -137,42 +122,36 @@ class Plan:
 
 def make_plan(settings: BenchSettings) -> Plan:
     """Check everything that can be checked before a model is loaded. Raises PlannerError."""
-    if settings.endpoint:
-        settings.endpoint.api_key()
+    level, server = settings.level, settings.endpoint
+    if server:
+        server.api_key()
     vocabulary = load_vocabulary(settings.vocabulary)
     configurations = list(dict.fromkeys(map(parse_configuration, settings.configurations)))
-    if settings.endpoint:
+    if server:
         _check_servable(configurations)
-    candidates = [] if settings.endpoint else _candidates(settings)
+    candidates = [] if server else _candidates(settings)
     needs_adapter = any(configuration.adapter for configuration in configurations)
-    adapters = _adapters(settings, candidates) if candidates and needs_adapter else {}
+    chosen = _adapters(settings, candidates) if candidates and needs_adapter else {}
     _check_limit(settings, candidates, configurations, vocabulary)
-    path = settings.data or default_data(settings.level, vocabulary)
-    data = load_bench_data(path, settings.level, vocabulary, settings.limit)
+    path = settings.data or default_data(level, vocabulary)
+    data = load_bench_data(path, level, vocabulary, settings.limit)
     # Everything that the answers of all jobs depend on.
-    common = {
-        "level": settings.level,
-        "prompt format": PROMPT_VERSION,
-        "vocabulary": vocabulary.sha256,
-        "data": data.sha256,
-        "max-new-tokens": settings.token_limit,
-    }
-    if settings.endpoint:
+    common: Parts = {"level": level, "prompt format": PROMPT_VERSION, "data": data.sha256}
+    common |= {"vocabulary": vocabulary.sha256, "max-new-tokens": settings.token_limit}
+    if server:
         device = "server"
-        jobs = [_served_job(settings.endpoint, one, common) for one in configurations]
+        jobs = [_served_job(server, one, common) for one in configurations]
     else:
-        torch_device = resolve_device(settings.device)
-        device = str(torch_device)
-        dtype = str(compute_dtype(torch_device)).removeprefix("torch.")
-        common["device"] = f"{torch_device.type} {dtype}"
-        for candidate in candidates:
-            if (adapter := adapters.get(candidate.name)) is not None:
-                check_adapter(adapter, candidate, level=settings.level, vocabulary=vocabulary)
-        seen = {name: _seen(folder, data, vocabulary) for name, folder in adapters.items()}
+        torch_device = loading.resolve_device(settings.device)
+        dtype = str(loading.compute_dtype(torch_device)).removeprefix("torch.")
+        device, common["device"] = str(torch_device), f"{torch_device.type} {dtype}"
+        for one in (one for one in candidates if one.name in chosen):
+            adapters.check_adapter(chosen[one.name], one, level=level, vocabulary=vocabulary)
+        seen = {name: _seen(folder, data, vocabulary) for name, folder in chosen.items()}
         jobs = [
-            _job(settings, candidate, one, adapters.get(candidate.name), vocabulary, common, seen)
-            for candidate in candidates
-            for one in configurations
+            _job(settings, one, configuration, vocabulary, common, chosen.get(one.name), seen)
+            for one in candidates
+            for configuration in configurations
         ]
     every = tuple(one for job in jobs for one in job.repeated(settings))
     return Plan(settings, data, vocabulary, device, every)
@@ -185,62 +164,58 @@ def _candidates(settings: BenchSettings) -> list[Candidate]:
         if found.setdefault(candidate.name, candidate).folder != candidate.folder:
             problem = f"two different folders are named {candidate.name}; rename one of them"
             raise PlannerError(f"--candidates: {problem}")
-        require_folder(candidate)
+        loading.require_folder(candidate)
     return list(found.values())
 
 
-def _adapters(settings: BenchSettings, candidates: list[Candidate]) -> dict[str, Path]:
-    """The adapter folder of each candidate: from --adapter, else the one that it has, else where
-    `plannerft train` would put it.
-    """
+def _adapters(settings: BenchSettings, candidates: Sequence[Candidate]) -> dict[str, Path]:
+    """Adapter folders: from --adapter, else the candidate's, else where `train` would write."""
     chosen: dict[str, Path] = {}
     for text in settings.adapters:
         name, separator, folder = text.partition("=")
-        matching = [
-            candidate.name
-            for candidate in candidates
-            if separator and name in (candidate.name, candidate.repo, str(candidate.folder))
+        named = [
+            one.name
+            for one in candidates
+            if separator and name in (one.name, one.repo, str(one.folder))
         ]
-        if not matching and len(candidates) > 1:
+        if not named and len(candidates) > 1:
             names = ", ".join(candidate.name for candidate in candidates)
             way = "with several candidates give NAME=DIR for each"
             raise PlannerError(f"--adapter {text}: {way}; the candidates are {names}")
-        target = matching[0] if matching else candidates[0].name
+        target = named[0] if named else candidates[0].name
         if target in chosen:
             problem = f"{target} has the adapter {chosen[target]} already; give one per candidate"
             raise PlannerError(f"--adapter {text}: {problem}")
-        chosen[target] = Path(folder if matching else text)
+        chosen[target] = Path(folder if named else text)
     level = settings.level
     return {
-        one.name: chosen.get(one.name) or find_adapter(one, level) or adapter_folder(one, level)
+        one.name: chosen.get(one.name)
+        or adapters.find_adapter(one, level)
+        or adapters.adapter_folder(one, level)
         for one in candidates
     }
 
 
 def _check_limit(
     settings: BenchSettings,
-    candidates: list[Candidate],
-    configurations: list[Configuration],
+    candidates: Sequence[Candidate],
+    configurations: Sequence[Configuration],
     vocabulary: Vocabulary,
 ) -> None:
-    """Raise PlannerError where a constrained answer of a later candidate needs more tokens than the
-    limit; the first candidate's are checked when it is loaded.
-    """
+    """Raise PlannerError where a later candidate's constrained answers need more tokens."""
     strengths = [one.strength for one in configurations if one.strength != "free"]
     for candidate in candidates[1:] if strengths else ():
-        tokenizer = load_tokenizer(candidate)
-        ends, limit = tuple(end_of_turn_ids(tokenizer)), settings.token_limit
+        tokenizer = loading.load_tokenizer(candidate)
+        kind, ends = (settings.level, vocabulary, strengths[0]), tuple(end_of_turn_ids(tokenizer))
         try:
-            constraint_factory(
-                tokenizer, settings.level, vocabulary, strengths[0], end_ids=ends, limit=limit
-            )
+            constraint_factory(tokenizer, *kind, end_ids=ends, limit=settings.token_limit)
         except PlannerError as error:
             raise PlannerError(f"{candidate.name}: {error}") from None
 
 
 def _seen(adapter: Path, data: BenchData, vocabulary: Vocabulary) -> int:
     """How many of the samples an adapter was trained on."""
-    seen, level = seen_in_training(adapter), data.level
+    seen, level = adapters.seen_in_training(adapter), data.level
     if data.sha256 in seen:
         return len(data.samples)
     texts = (user_text(level, sample.record, vocabulary) for sample in data.samples)
@@ -251,78 +226,62 @@ def _job(
     settings: BenchSettings,
     candidate: Candidate,
     configuration: Configuration,
-    adapter: Path | None,
     vocabulary: Vocabulary,
-    common: dict[str, Any],
+    common: Parts,
+    adapter: Path | None,
     seen: dict[str, int],
 ) -> Job:
-    folder = require_folder(candidate)
+    folder = loading.require_folder(candidate)
     used = adapter if configuration.adapter else None
-    pretrained = candidate.knows(vocabulary)
-    # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
-    with_vocabulary = not configuration.adapter and not pretrained
-    default = candidate.adapter_defaults(settings.level, vocabulary).quantization
-    quantization = settings.quantization or default or "nf4"
+    quantization = candidate.stored_as(settings.level, vocabulary, settings.quantization)
+    with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, used)
     parts = {
-        **common,
-        "candidate": candidate.name,
-        "configuration": configuration.name,
         "model": weights_sha256(folder),
         "tokenizer": sha256_tree(folder, TOKENIZER_FILES),
-        "adapter": sha256_tree(used, (WEIGHTS, CONFIG)) if used else None,
-        "vocabulary in the prompt": with_vocabulary,
+        "adapter": adapters.adapter_sha256(used) if used else None,
         "quantization": quantization,
     }
-    system = System(
-        candidate.name,
-        configuration.name,
-        label=candidate.row_name,
-        published=candidate.published,
+    system = _system(
+        candidate,
+        configuration,
+        candidate.row_name,
         is_standin=candidate.is_standin,
-        pretrained=pretrained,
+        pretrained=candidate.knows(vocabulary),
         with_vocabulary=with_vocabulary,
         adapter=str(used) if used else None,
         seen=seen.get(candidate.name, 0) if used else 0,
     )
     threads = decoding_threads(candidate, str(common["device"]).split()[0])
-    return Job(
-        candidate, configuration, used, quantization, with_vocabulary, parts, system, threads
-    )
+    every = _parts(common, system, parts)
+    return Job(candidate, configuration, every, system, used, quantization, threads)
 
 
-def _check_servable(configurations: list[Configuration]) -> None:
-    for configuration in configurations:
-        if configuration.strength not in ("free", "schema"):
-            problem = f"{configuration.strength} needs our own decoding"
-            known = (
-                "base, lora (a fine-tuned model, told no vocabulary), base+schema and lora+schema"
-            )
-            way = f"with --endpoint there are {known}"
-            raise PlannerError(f"--configurations {configuration.name}: {problem}; {way}")
+def _system(candidate: Candidate, configuration: Configuration, label: str, **more: Any) -> System:
+    known = candidate.name, configuration.name, label, candidate.published
+    return System(*known, **more)
 
 
-def _served_job(
-    endpoint: EndpointSettings, configuration: Configuration, common: dict[str, Any]
-) -> Job:
+def _parts(common: Parts, system: System, parts: Parts) -> Parts:
+    named = {"candidate": system.candidate, "configuration": system.configuration}
+    return {**common, **named, **parts, "vocabulary in the prompt": system.with_vocabulary}
+
+
+def _check_servable(configurations: Sequence[Configuration]) -> None:
+    for one in configurations:
+        if one.strength not in ("free", "schema"):
+            problem = f"{one.strength} needs our own decoding; with --endpoint there are {SERVED}"
+            raise PlannerError(f"--configurations {one.name}: {problem}")
+
+
+def _served_job(endpoint: EndpointSettings, configuration: Configuration, common: Parts) -> Job:
     """A job of the served model; published figures stand beside one of the published names."""
     wanted, with_vocabulary = endpoint.model.lower(), not configuration.adapter
     known = [
         one for one in all_candidates() if wanted in ((one.repo or "").lower(), one.name.lower())
     ]
     candidate = Candidate(name=endpoint.model, published=known[0].published if known else None)
-    parts = {
-        **common,
-        "candidate": candidate.name,
-        "configuration": configuration.name,
-        "endpoint": endpoint.root,
-        "vocabulary in the prompt": with_vocabulary,
-        "sampling": {"temperature": 0, "seed": SERVER_SEED},
-    }
-    system = System(
-        candidate.name,
-        configuration.name,
-        label=f"{candidate.row_name} at {endpoint.host}",
-        published=candidate.published,
-        with_vocabulary=with_vocabulary,
-    )
-    return Job(candidate, configuration, None, "none", with_vocabulary, parts, system, None)
+    label = f"{candidate.row_name} at {endpoint.host}"
+    system = _system(candidate, configuration, label, with_vocabulary=with_vocabulary)
+    sampling = {"temperature": 0, "seed": SERVER_SEED}
+    parts = _parts(common, system, {"endpoint": endpoint.root, "sampling": sampling})
+    return Job(candidate, configuration, parts, system)

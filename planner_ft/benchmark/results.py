@@ -1,6 +1,4 @@
-"""Results of a run: rows of metrics, made from answers and timed queries, or read from
-results.json.
-"""
+"""Results of a run: rows of metrics, made from answers and timed queries, or read again."""
 
 from __future__ import annotations
 
@@ -10,17 +8,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, get_args
 
+from planner_ft.benchmark import summary
 from planner_ft.benchmark.baselines import make_baselines
 from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.changes import changes
-from planner_ft.benchmark.contrasts import Contrasts, Question, contrasts, system_key
-from planner_ft.benchmark.costs import cost_figures
-from planner_ft.benchmark.samples import BenchData, Sample
+from planner_ft.benchmark.contrasts import Contrasts, Question, changes, contrasts, system_key
+from planner_ft.benchmark.paired import Comparison
+from planner_ft.benchmark.samples import BenchData
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.summary import failure_counts, group_figures, pass_figures, summarise
-from planner_ft.benchmark.verdicts import Comparison
 from planner_ft.support.tables import NOTHING, Cell, RowKind
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -36,9 +32,9 @@ class System:
 
     `label` is its name in tables, `published` its name in the published tables. `with_vocabulary`
     says whether the prompt held the vocabulary, `pretrained` whether the candidate was pretrained
-    on plans of this vocabulary; both are None or False for predictions of unknown origin. `seen` are
-    the samples that its adapter was trained on. `repeat` numbers the answers of a system that was
-    asked several times; a row is of all of them.
+    on plans of this vocabulary; both are None or False for predictions of unknown origin. `seen`
+    are the samples that its adapter was trained on. `repeat` numbers the answers of a system that
+    was asked several times; a row is of all of them.
     """
 
     candidate: str
@@ -53,6 +49,11 @@ class System:
     repeat: int | None = None
     is_baseline: bool = False
 
+    @property
+    def key(self) -> str:
+        """Its name in comparisons."""
+        return system_key((self.candidate, self.configuration))
+
 
 @dataclass(frozen=True)
 class Row:
@@ -66,7 +67,7 @@ class Row:
 
     system: System
     n: int
-    metrics: dict[str, Estimate]
+    metrics: dict[str, Estimate] = field(default_factory=dict)
     failures: dict[str, int] = field(default_factory=dict)
     finish_reasons: dict[str, int] = field(default_factory=dict)
     missing: tuple[str, ...] = ()
@@ -94,8 +95,7 @@ class Row:
 
     @property
     def key(self) -> str:
-        """The row's name in comparisons."""
-        return system_key((self.system.candidate, self.system.configuration))
+        return self.system.key
 
     def figure(self, metric: str) -> Estimate:
         """A metric, without a value where it was not measured."""
@@ -111,39 +111,24 @@ class Row:
     def to_json(self) -> Record:
         system = asdict(self.system)
         del system["repeat"]
-        return {
-            "candidate": system.pop("candidate"),
-            "configuration": system.pop("configuration"),
-            "n": self.n,
-            "metrics": {name: estimate.to_json() for name, estimate in self.metrics.items()},
-            "failures": self.failures,
-            **self.breakdown,
-            "finish_reasons": self.finish_reasons,
-            "missing": list(self.missing),
-            "latency_n": self.latency_n,
-            **({"repeats": self.repeats} if self.repeats else {}),
-            **({"costs": self.costs} if self.costs else {}),
-            **system,
-        }
+        named = {name: system.pop(name) for name in ("candidate", "configuration")}
+        metrics = {name: estimate.to_json() for name, estimate in self.metrics.items()}
+        figures = {**named, "n": self.n, "metrics": metrics, "failures": self.failures}
+        counts = {"finish_reasons": self.finish_reasons, "missing": list(self.missing)}
+        beside = {"repeats": self.repeats, "costs": self.costs}
+        known = {name: one for name, one in beside.items() if one}
+        return figures | self.breakdown | counts | {"latency_n": self.latency_n} | known | system
 
     @classmethod
     def from_json(cls, record: Record) -> Row:
         """A row of results.json, also of an earlier version, which says less."""
-        rest = {"label": str(record.get("candidate")), **record}
+        rest = {"label": str(record.get("candidate")), "n": 0, **record}
         own = {one.name: rest.pop(one.name) for one in fields(System) if one.name in rest}
         own |= {name: str(own.get(name)) for name in ("candidate", "configuration", "label")}
-        figures = {name: Estimate(**one) for name, one in rest.pop("metrics", {}).items()}
-        known = {one.name for one in fields(cls)}
-        return cls(
-            System(**own),
-            rest.pop("n", 0),
-            figures,
-            rest.pop("failures", {}),
-            rest.pop("finish_reasons", {}),
-            tuple(rest.pop("missing", ())),
-            breakdown={name: one for name, one in rest.items() if name not in known},
-            **{name: one for name, one in rest.items() if name in known},
-        )
+        known = {one.name: rest.pop(one.name) for one in fields(cls) if one.name in rest}
+        known["metrics"] = {k: Estimate(**one) for k, one in known.get("metrics", {}).items()}
+        known["missing"] = tuple(known.get("missing", ()))
+        return cls(System(**own), breakdown=rest, **known)
 
 
 @dataclass(frozen=True)
@@ -168,16 +153,14 @@ class Results:
     recorded: Record = field(default_factory=dict)
 
     def to_json(self) -> Record:
+        compared = {key: [one.to_json() for one in made] for key, made in self.contrasts.items()}
         return {
             "level": self.level,
             "data": self.data,
             "rows": [row.to_json() for row in self.rows],
             "changes": self.changes,
             "groups": self.groups,
-            "comparisons": {
-                question: [one.to_json() for one in found]
-                for question, found in self.contrasts.items()
-            },
+            "comparisons": compared,
             "baselines": [row.to_json() for row in self.baselines],
             "training": self.training,
             "manifest": self.manifest,
@@ -191,17 +174,11 @@ class Results:
         ours, theirs = (
             tuple(map(Row.from_json, record.get(part) or ())) for part in ("rows", "baselines")
         )
-        known = {key: record[key] for key in ("comparisons", "groups") if record.get(key)}
+        beside = tuple(scores), theirs, tuple(baselines)
         return cls(
-            record["level"],
-            record["data"],
-            ours,
-            record.get("manifest") or {},
-            tuple(scores),
-            baselines=theirs,
-            baseline_scores=tuple(baselines),
+            *(record["level"], record["data"], ours, record.get("manifest") or {}, *beside),
             training=record.get("training"),
-            recorded=known,
+            recorded={key: record[key] for key in ("comparisons", "groups") if record.get(key)},
         )
 
     @property
@@ -210,9 +187,7 @@ class Results:
 
     @functools.cached_property
     def contrasts(self) -> Contrasts:
-        """Differences between configurations, models, and everything and the baselines, paired by
-        sample.
-        """
+        """Differences of configurations, models, and all from the baselines, paired by sample."""
         if known := self.recorded.get("comparisons"):
             return {
                 key: [*map(Comparison.from_json, known.get(key, ()))] for key in get_args(Question)
@@ -227,20 +202,12 @@ class Results:
     @property
     def groups(self) -> list[Record]:
         """Figures per group of the test data."""
-        return self.recorded.get("groups") or group_figures(self.scores)
-
-    def row(self, candidate: str, configuration: str) -> Row:
-        """The row of a candidate and configuration."""
-        wanted = system_key((candidate, configuration))
-        return next(row for row in self.rows if row.key == wanted)
+        return self.recorded.get("groups") or summary.group_figures(self.scores)
 
 
 @dataclass(frozen=True)
 class Measured:
-    """One system with its answers and timed queries, both by sample id.
-
-    `costs` are the figures of run.json on its candidate, `planning` its lines of planning.jsonl.
-    """
+    """A system with answers and timed queries by sample id, its costs and planning times."""
 
     system: System
     predictions: Lines
@@ -262,76 +229,62 @@ def assemble(
     seed: int,
     manifest: Record,
 ) -> Results:
-    """Score every system on the samples of `data`, and the baselines; a sample without a prediction
-    counts as an empty output. Repeats of a system make one row.
-    """
-
-    def scored(system: System, answers: list[tuple[Lines, Lines]]) -> tuple[Row, list[Record]]:
-        return score_system(data.level, system, data.samples, answers, vocabulary, seed=seed)
-
-    rows, scores, families = [], [], {sample.id: sample.family for sample in data.samples}
-    systems: dict[tuple[str, str], list[Measured]] = {}
+    """Score every system and the baselines; repeats of a system make one row."""
+    systems: dict[str, list[Measured]] = {}
     for entry in measured:
-        systems.setdefault((entry.system.candidate, entry.system.configuration), []).append(entry)
-    for entries in systems.values():
-        first, answers = entries[0], [(entry.predictions, entry.timed) for entry in entries]
-        row, of_samples = scored(first.system, answers)
-        timed = {sample: line for entry in entries for sample, line in entry.timed.items()}
-        costs = cost_figures(timed, families, first.costs, first.planning, seed)
-        rows.append(replace(row, costs=costs))
-        scores += of_samples
-    baselines, beside, beside_scores = make_baselines(data, vocabulary), [], []
-    for label, lines in baselines.answers.items():
-        system = System(label, "baseline", label=f"{label} (baseline)", is_baseline=True)
-        row, of_samples = scored(system, [(lines, {})])
-        beside.append(row)
-        beside_scores += [{**score, **lines[score["id"]]} for score in of_samples]
+        systems.setdefault(entry.system.key, []).append(entry)
+    baselines = make_baselines(data, vocabulary)
+    without_model = [
+        Measured(System(label, "baseline", f"{label} (baseline)", is_baseline=True), lines)
+        for label, lines in baselines.answers.items()
+    ]
+    ours = [score_system(data, entries, vocabulary, seed) for entries in systems.values()]
+    theirs = [(one, score_system(data, [one], vocabulary, seed)) for one in without_model]
+    beside = [
+        {**line, **one.predictions[line["id"]]} for one, scored in theirs for line in scored[1]
+    ]
     return Results(
         data.level,
         data.summary(),
-        tuple(rows),
+        tuple(row for row, _lines in ours),
         manifest,
-        tuple(scores),
-        baselines=tuple(beside),
-        baseline_scores=tuple(beside_scores),
+        tuple(line for _row, lines in ours for line in lines),
+        baselines=tuple(row for _one, (row, _lines) in theirs),
+        baseline_scores=tuple(beside),
         baseline_notes=baselines.notes,
         training=baselines.training,
     )
 
 
 def score_system(
-    level: Level,
-    system: System,
-    samples: Sequence[Sample],
-    answers: Sequence[tuple[Lines, Lines]],
-    vocabulary: Vocabulary,
-    *,
-    seed: int,
+    data: BenchData, entries: Sequence[Measured], vocabulary: Vocabulary, seed: int
 ) -> tuple[Row, list[Record]]:
-    """Score one system's (predictions, timed queries), both by sample id: one pair, or one per
-    repeat. Returns its row and the scores per answer.
-    """
-    asked = [(sample, *lines) for lines in answers for sample in samples]
+    """The row of one system, measured once or once per repeat, and its scores per answer."""
+    asked = [(sample, one) for one in entries for sample in data.samples]
     scores = [
-        score_sample(level, sample, predictions.get(sample.id), vocabulary, timed.get(sample.id))
-        for sample, predictions, timed in asked
+        score_sample(data.level, sample, answers.get(sample.id), vocabulary, timed.get(sample.id))
+        for sample, one in asked
+        for answers, timed in [(one.predictions, one.timed)]
     ]
-    known = [lines.get(sample.id, {}).get("finish_reason") for sample, lines, _timed in asked]
+    known = [one.predictions.get(sample.id, {}).get("finish_reason") for sample, one in asked]
     reasons = Counter(str(reason) for reason in known if reason)
-    missing = dict.fromkeys(sample.id for sample, lines, _timed in asked if sample.id not in lines)
-    several, n = len(answers) > 1, len(samples)
+    missing = [sample.id for sample, one in asked if sample.id not in one.predictions]
+    several, n, first = len(entries) > 1, len(data.samples), entries[0]
+    families = {sample.id: sample.family for sample in data.samples}
+    timed = {sample: line for one in entries for sample, line in one.timed.items()}
     row = Row(
-        system=replace(system, repeat=None),
-        n=n,
-        metrics=summarise(scores, seed),
-        failures=failure_counts(scores),
-        finish_reasons=dict(sorted(reasons.items())),
-        missing=tuple(missing),
+        replace(first.system, repeat=None),
+        n,
+        summary.summarise(scores, seed),
+        summary.failure_counts(scores),
+        dict(sorted(reasons.items())),
+        tuple(dict.fromkeys(missing)),
         latency_n=sum(score.values["latency_s"] is not None for score in scores),
-        repeats=pass_figures(scores, seed) if several else None,
+        repeats=summary.pass_figures(scores, seed) if several else None,
         breakdown=breakdown(scores),
+        costs=summary.cost_figures(timed, families, first.costs, first.planning, seed),
     )
-    named = {"candidate": system.candidate, "configuration": system.configuration}
+    named: Record = {name: getattr(first.system, name) for name in ("candidate", "configuration")}
     return row, [
         {**named, **({"repeat": index // n + 1} if several else {}), **score.to_json()}
         for index, score in enumerate(scores)

@@ -1,26 +1,26 @@
-"""Running the benchmark: answers and timed queries that are not there yet are made, then all are
-scored.
-"""
+"""Missing answers and timed queries are made, by processes that share a run, and all scored."""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from datetime import timedelta
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from planner_ft.benchmark import folder
+from planner_ft.benchmark.folder import Line, RecordLog
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import time_planning
-from planner_ft.benchmark.ranks import ALONE, Ranks
-from planner_ft.benchmark.records import Line, RecordLog, add_costs, begin_run, measured, read_run
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import AnswerSource, Fields, open_source
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.resources import end_with_parent
 from planner_ft.vocabulary.outputs import parse_output
 
 Progress = Callable[[str, int, int], None]
@@ -31,28 +31,101 @@ def _silent(_label: str, _done: int, _total: int) -> None:
     pass
 
 
+Item = TypeVar("Item")
+LONGEST_WAIT = timedelta(days=14)
+"""For others that answer; one that fails ends them all through its launcher."""
+
+
+@dataclass(frozen=True)
+class Ranks:
+    """This process's place in a run. Rank 0 owns the folder; the others add answers."""
+
+    rank: int = 0
+    world: int = 1
+
+    @property
+    def leads(self) -> bool:
+        return self.rank == 0
+
+    def wait(self) -> None:
+        """Go on when every process has come here."""
+        if self.world > 1:
+            import torch.distributed
+
+            torch.distributed.barrier()
+
+    def share(self, items: Sequence[Item]) -> list[Item]:
+        """This process's part of the items that all share."""
+        return list(items[self.rank :: self.world])
+
+    def settings(self, settings: BenchSettings) -> BenchSettings:
+        """The settings of this process: a GPU of its own, where there are any."""
+        if self.world == 1 or settings.device not in ("auto", "cuda"):
+            return settings
+        import torch
+
+        if not torch.cuda.is_available():
+            return settings
+        local = int(os.environ.get("LOCAL_RANK", self.rank))
+        return replace(settings, device=f"cuda:{local % torch.cuda.device_count()}")
+
+
+def started_with_others() -> bool:
+    """Whether a launcher started several processes."""
+    return int(os.environ.get("WORLD_SIZE", "1")) > 1
+
+
+def join_ranks() -> Ranks:
+    """This process's place, after it has met the others; alone where there are none."""
+    if not started_with_others():
+        return Ranks()
+    import atexit
+
+    import torch.distributed
+
+    end_with_parent()
+    torch.distributed.init_process_group("gloo", timeout=LONGEST_WAIT)
+    atexit.register(torch.distributed.destroy_process_group)
+    return Ranks(torch.distributed.get_rank(), torch.distributed.get_world_size())
+
+
 @dataclass(frozen=True)
 class _Run:
-    """A run of this process."""
+    """A run of this process, which times queries where there is a log for them."""
 
     plan: Plan
     ranks: Ranks
-    predictions: RecordLog
     progress: Progress
+    predictions: RecordLog
+    latencies: RecordLog | None = None
 
-    @contextlib.contextmanager
-    def source(self, jobs: list[Job]) -> Iterator[AnswerSource]:
-        source = open_source(self.plan, jobs)
-        try:
-            yield source
-        finally:
-            source.release()
+    def candidate(self, jobs: list[Job]) -> None:
+        """Make this process's share of a candidate's answers; time queries; load it if need be."""
+        every, settings = self.plan.data.samples, self.plan.settings
+        timed = every[: settings.latency_samples] if self.latencies is not None else ()
+        missing = [self.ranks.share(_without(every, self.predictions, job)) for job in jobs]
+        # The repeats of a system take the time of the first.
+        first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
+        untimed = [_without(timed, self.latencies, job) for job in first]
+        needed = any(missing) or any(untimed)
+        with contextlib.ExitStack() as loaded:
+            if needed:
+                self.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
+                source = open_source(self.plan, jobs)
+                loaded.callback(source.release)
+                for job, samples in zip(jobs, missing, strict=True):
+                    self._answer(job, samples, source)
+            if self.latencies is None:
+                loaded.close()
+            # Timing wants a quiet machine: the others have answered, and wait until it is over.
+            self.ranks.wait()
+            self.predictions.read()
+            if needed and self.latencies is not None:
+                for job, samples in zip(first, untimed, strict=True):
+                    self._time(job, samples, len(timed), source, self.latencies)
+                folder.add_costs(settings.folder, jobs[0].candidate.name, source.costs())
 
-    def share(self, done: Mapping[str, Line]) -> list[Sample]:
-        """This process's part of the samples that have no answer."""
-        return self.ranks.share(_without(self.plan.data.samples, done))
-
-    def answer(self, job: Job, samples: list[Sample], source: AnswerSource) -> None:
+    def _answer(self, job: Job, samples: list[Sample], source: AnswerSource) -> None:
         """Record answers as they come."""
         label, total = f"{job.name}: answers", len(self.plan.data.samples)
         before = total - len(samples)
@@ -61,7 +134,7 @@ class _Run:
             self.predictions.append(_prediction(job, samples[index], answer))
             self.progress(label, done, total)
 
-    def time(
+    def _time(
         self, job: Job, samples: list[Sample], total: int, source: AnswerSource, log: RecordLog
     ) -> None:
         """Time queries one at a time."""
@@ -72,7 +145,7 @@ class _Run:
 
 
 def run_bench(
-    settings: BenchSettings, progress: Progress = _silent, ranks: Ranks = ALONE
+    settings: BenchSettings, progress: Progress = _silent, ranks: Ranks | None = None
 ) -> Results:
     """Benchmark every candidate in every configuration and write results.json and the tables into
     `settings.folder`.
@@ -81,9 +154,8 @@ def run_bench(
     With several processes this is for the first, and `help_bench` for the others. Raises
     PlannerError.
     """
-    out = settings.folder
-    hint = "give --resume to go on, --overwrite to start anew, or another --out"
-    folder.check_folder(out, () if settings.resume or settings.overwrite else folder.ALL, hint)
+    out, goes_on, ranks = settings.folder, settings.resume or settings.overwrite, ranks or Ranks()
+    folder.check_folder(out, () if goes_on else folder.ALL, folder.GO_ON)
     plan = make_plan(ranks.settings(settings))
     started = time.time()
     if settings.overwrite:
@@ -93,28 +165,26 @@ def run_bench(
         RecordLog(out / folder.PREDICTIONS) as predictions,
         RecordLog(out / folder.LATENCY) as latencies,
     ):
-        begin_run(plan, predictions)
+        folder.begin_run(plan, predictions)
         reused = len(predictions.records)
         ranks.wait()
         # The others read the answers that are there: every share is cut from the same list.
         ranks.wait()
-        run = _Run(plan, ranks, predictions, progress)
         for jobs in plan.by_candidate():
-            _run_candidate(run, jobs, latencies)
+            _Run(plan, ranks, progress, predictions, latencies).candidate(jobs)
             if settings.planning_samples:
-                add_costs(out, jobs[0].candidate.name, time_planning(plan, jobs, progress))
+                costs = time_planning(plan, jobs, progress)
+                folder.add_costs(out, jobs[0].candidate.name, costs)
             ranks.wait()
         took = {"seconds": round(time.time() - started, 1), "reused_predictions": reused}
-        results = _results(plan, predictions, latencies, took)
+        results = _results(plan, took)
         folder.write_results(out, results)
     return results
 
 
 @contextlib.contextmanager
 def _nothing_left(out: Path) -> Iterator[None]:
-    """Remove the files of a run that failed before its first answer, such as in loading: the next
-    one would take them for results.
-    """
+    """Remove what a run that failed before its first answer left: it is no result."""
     try:
         yield
     except Exception:
@@ -125,94 +195,52 @@ def _nothing_left(out: Path) -> Iterator[None]:
 
 
 def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
-    """Make this process's share of the answers of a run that another process leads. Raises
-    PlannerError.
-    """
+    """Make this process's share of a run that another process leads. Raises PlannerError."""
     plan = make_plan(ranks.settings(settings))
     # The first process has refused or cleared the folder before anybody goes on.
     ranks.wait()
     with RecordLog(settings.folder / folder.PREDICTIONS) as predictions:
         ranks.wait()
         for jobs in plan.by_candidate():
-            _run_candidate(_Run(plan, ranks, predictions, _silent), jobs, None)
+            _Run(plan, ranks, _silent, predictions).candidate(jobs)
             ranks.wait()
 
 
-def _run_candidate(run: _Run, jobs: list[Job], latencies: RecordLog | None) -> None:
-    """Make this process's share of the missing answers of one candidate, and time queries if there
-    is a log for them; the model is loaded once, and only if need be.
-    """
-    timed = run.plan.data.samples[: run.plan.settings.latency_samples]
-    missing = {job.name: run.share(run.predictions.of_key(job.key)) for job in jobs}
-    # The repeats of a system take the time of the first.
-    first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
-    untimed = {
-        job.name: _without(timed, latencies.of_key(job.key))
-        for job in first
-        if latencies is not None
-    }
-    with contextlib.ExitStack() as loaded:
-        if needed := any(missing.values()) or any(untimed.values()):
-            run.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
-            source = loaded.enter_context(run.source(jobs))
-            for job in jobs:
-                run.answer(job, missing[job.name], source)
-        if latencies is None:
-            loaded.close()
-        # Timing wants a quiet machine: the others have answered, and wait until it is over.
-        run.ranks.wait()
-        run.predictions.read()
-        if needed and latencies is not None:
-            for job in first:
-                run.time(job, untimed[job.name], len(timed), source, latencies)
-            add_costs(run.plan.settings.folder, jobs[0].candidate.name, source.costs())
-
-
-def _without(samples: Sequence[Sample], done: Mapping[str, Line]) -> list[Sample]:
+def _without(samples: Sequence[Sample], log: RecordLog | None, job: Job) -> list[Sample]:
+    """The samples of which the log holds nothing for this job."""
+    done = log.of_key(job.key) if log is not None else {}
     return [sample for sample in samples if sample.id not in done]
 
 
 def _prediction(job: Job, sample: Sample, answer: Fields) -> Line:
     parsed = parse_output(answer["output"])
-    return {
-        "id": sample.id,
-        **job.named(),
-        **answer,
-        "parsed": parsed.plan,
-        "error": answer["error"] or parsed.problem,
-        "standin": job.candidate.is_standin,
-        "key": job.key,
-    }
+    error = answer["error"] or parsed.problem
+    beside = {"parsed": parsed.plan, "error": error, "standin": job.candidate.is_standin}
+    return {"id": sample.id, **job.named(), **answer, **beside, "key": job.key}
 
 
-def _results(
-    plan: Plan, predictions: RecordLog, latencies: RecordLog, run: dict[str, Any]
-) -> Results:
-    settings, costs = plan.settings, read_run(plan.settings.folder).costs
+def _results(plan: Plan, took: dict[str, Any]) -> Results:
+    settings, record = plan.settings, folder.read_run(plan.settings.folder)
     sampled = {name: getattr(settings, name) for name in ("temperature", "top_p", "repeats")}
-    configuration = {
-        "level": settings.level,
-        "vocabulary": {"name": plan.vocabulary.name, "sha256": plan.vocabulary.sha256},
-        "limit": settings.limit,
-        "batch_size": settings.batch_size or "auto",
-        "max_new_tokens": settings.token_limit,
-        "latency_samples": settings.latency_samples,
-        "decoding": sampled if settings.temperature else "greedy",
-    }
     manifest = build_manifest(
         "bench",
         seed=settings.seed,
-        configuration=configuration,
+        configuration={
+            "level": settings.level,
+            "vocabulary": plan.vocabulary.named,
+            "limit": settings.limit,
+            "batch_size": settings.batch_size or "auto",
+            "max_new_tokens": settings.token_limit,
+            "latency_samples": settings.latency_samples,
+            "decoding": sampled if settings.temperature else "greedy",
+        },
         inputs={"data": plan.data.path},
         device=plan.device,
         jobs={job.name: {**job.parts, "threads": job.threads} for job in plan.jobs},
-        costs=costs,
-        run=run,
+        costs=record.costs,
+        run=took,
     )
-    found = []
-    for job in plan.jobs:
-        answers, timed = predictions.of_key(job.key), latencies.of_key(job.key)
-        found.append(measured(settings.folder, costs, job.system, answers, timed))
+    found = folder.measured_in(settings.folder, record, [job.name for job in plan.jobs])
     return assemble(plan.data, plan.vocabulary, found, seed=settings.seed, manifest=manifest)
 
 

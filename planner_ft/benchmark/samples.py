@@ -1,6 +1,4 @@
-"""Test data: any JSONL of `{"id", "prompt", "expected"}` records (task level: also `task` and
-`parameters`).
-"""
+"""Test data: JSONL of `{"id", "prompt", "expected"}` (tasks: also `task`, `parameters`)."""
 
 from __future__ import annotations
 
@@ -26,6 +24,10 @@ class Sample:
     family: str
     record: dict[str, Any]
 
+    @classmethod
+    def of(cls, record: dict[str, Any]) -> Sample:
+        return cls(record["id"], str(record.get("family") or record["id"]), record)
+
     @property
     def group(self) -> str | None:
         """The kind of difficulty that the data files the sample under, if it does."""
@@ -41,9 +43,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class BenchData:
-    """The samples of a file, of which `limit` may have kept only the first; `ids` are those of the
-    whole file.
-    """
+    """The samples of a file, or the first up to a limit; `ids` are all of the file."""
 
     path: Path
     sha256: str
@@ -63,26 +63,22 @@ def load_bench_data(
     path = Path(path)
     if limit is not None and limit < 1:
         raise PlannerError(f"--limit {limit}: must be at least 1")
-    samples: dict[str, Sample] = {}
     lines: dict[str, int] = {}
-    problems: list[str] = []
+    samples, problems = [], []
     record: Any
     for number, record, problem in iterate_jsonl(path):
         problem = problem or next(_problems(record, level, vocabulary), None)
-        if problem is None and record["id"] in lines:
+        if problem is None and lines.setdefault(record["id"], number) != number:
             problem = f"id {record['id']!r} stands on line {lines[record['id']]} already"
         if problem is not None:
             problems.append(f"{path}:{number}: {problem}")
-            continue
-        name = record["id"]
-        lines[name] = number
-        samples[name] = Sample(name, str(record.get("family") or name), record)
+        else:
+            samples.append(Sample.of(record))
     if problems:
         raise PlannerError(joined(problems))
     if not samples:
         raise PlannerError(f"{path}: holds no samples")
-    kept = tuple(samples.values())[:limit]
-    return BenchData(path, sha256_file(path), level, kept, frozenset(samples))
+    return BenchData(path, sha256_file(path), level, tuple(samples[:limit]), frozenset(lines))
 
 
 def joined(problems: list[str]) -> str:
@@ -92,9 +88,7 @@ def joined(problems: list[str]) -> str:
 
 
 def _problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """Reasons why a line is no test sample of this level: entries without a readable name would be
-    missing from the score, names outside the vocabulary can never be met.
-    """
+    """Reasons why a line is no test sample: entries without a name would miss in the score."""
     if not isinstance(record, dict):
         yield f"a JSON object is expected, not {type(record).__name__}"
         return

@@ -8,27 +8,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from planner_ft.benchmark.metrics import failures, names
 from planner_ft.benchmark.metrics.alignment import Alignment, Entry, align, plan_entries
-from planner_ft.benchmark.metrics.executability import executable
 from planner_ft.benchmark.metrics.facts import KINDS, groundedness, slot_propagation
-from planner_ft.benchmark.metrics.failures import (
-    failure_kind,
-    invented_names,
-    refuses,
-    schema_valid,
-    strict_valid,
-    whole_plan_unordered,
-)
-from planner_ft.benchmark.metrics.names import (
-    Counts,
-    common_subsequence,
-    counts_by_role,
-    edge_f1,
-    edit_distance,
-    multiset_counts,
-    name_sequence,
-    set_counts,
-)
 from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
 from planner_ft.confidence.choices import from_json
@@ -50,9 +32,7 @@ UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
 
 @dataclass(frozen=True)
 class Answer:
-    """A sample with the plan that was answered; `plan` is None when the output is not one JSON
-    object. Results that several metrics need are computed once.
-    """
+    """A sample with the plan that was answered, if any, and what several metrics need."""
 
     level: Level
     sample: Sample
@@ -61,7 +41,6 @@ class Answer:
 
     @property
     def expected(self) -> dict[str, Any]:
-        """The expected plan."""
         return self.sample.expected
 
     @functools.cached_property
@@ -76,25 +55,23 @@ class Answer:
 
     @functools.cached_property
     def alignment(self) -> Alignment:
-        """Which predicted entry stands for which expected one."""
         return align(self.level, self.wanted, self.given, self.vocabulary)
 
     @functools.cached_property
     def strict_valid(self) -> bool:
-        return strict_valid(self.level, self.plan, self.vocabulary)
+        return failures.strict_valid(self.level, self.plan, self.vocabulary)
 
     @functools.cached_property
     def schema_valid(self) -> bool:
-        return self.strict_valid or schema_valid(self.level, self.plan, self.vocabulary)
+        return self.strict_valid or failures.schema_valid(self.level, self.plan, self.vocabulary)
 
 
 @dataclass(frozen=True)
 class SampleScore:
     """The score of one answer: `values` by metric, and the kind of failure, None when names, order
-    and parameters are right.
-
-    `alignment` and `types` (per type of parameter: values that agree, values that there are) are
-    for the tables by name and type, `details` explain values (`plan_logic`).
+    and parameters are right. `alignment` and `types` (per type of parameter: values that agree,
+    values that there are) are for the tables by name and type, `details` explain values
+    (`plan_logic`).
     """
 
     id: str
@@ -108,15 +85,9 @@ class SampleScore:
 
     def to_json(self) -> dict[str, Any]:
         """A line of scores.jsonl."""
-        return {
-            "id": self.id,
-            "family": self.family,
-            **self.values,
-            "failure": self.failure,
-            "group": self.group,
-            "alignment": self.alignment.to_json(),
-            **self.details,
-        }
+        beside = {"group": self.group, "alignment": self.alignment.to_json(), **self.details}
+        named = {"id": self.id, "family": self.family}
+        return {**named, **self.values, "failure": self.failure, **beside}
 
 
 def score_sample(
@@ -126,19 +97,18 @@ def score_sample(
     vocabulary: Vocabulary,
     timed: Mapping[str, Any] | None = None,
 ) -> SampleScore:
-    """Score one prediction (`output`, and `tokens` where they are known); None counts as an empty
-    output. `timed` is the sample's timed query.
-    """
+    """Score one prediction (None: an empty output) with the sample's timed query, if any."""
     prediction, timed = prediction or {}, timed or {}
     answer = Answer(level, sample, parse_output(prediction.get("output")).plan, vocabulary)
     judged, valid = (level, answer.plan, answer.expected, vocabulary), answer.schema_valid
-    failure = failure_kind(*judged, valid=valid)
+    failure = failures.failure_kind(*judged, valid=valid)
     logic, details = plan_logic(answer)
     found = compare_parameters(level, answer.alignment, vocabulary)
     values = _published(answer) | _names(answer) | _parameters(found) | logic
+    unordered = failure is None or (valid and failures.whole_plan_unordered(*judged))
     values |= {
         "whole_plan": failure is None,
-        "whole_plan_unordered": failure is None or whole_plan_unordered(*judged, valid=valid),
+        "whole_plan_unordered": unordered,
         "tokens": prediction.get("tokens"),
         "latency_s": timed.get("latency_s"),
         "forward_passes": timed.get("forward_passes"),
@@ -149,9 +119,8 @@ def score_sample(
 
 
 def _confidence(answer: Answer, prediction: Mapping[str, Any]) -> Details:
-    """`confidence`: how sure the system is of its plan, between 0 and 1, None where that is not
-    known; `calibrated`, or else the probability of the plan's tokens as the model has it. What does
-    not parse is known to be wrong.
+    """How sure the system is of its plan, 0 to 1 or None: `calibrated`, or else the probability of
+    the plan's tokens as the model has it. What does not parse is known to be wrong.
     """
     held, text = prediction.get("confidence"), prediction.get("output")
     choices = from_json(prediction.get("logprobs"), text) if isinstance(text, str) else None
@@ -167,7 +136,7 @@ def _confidence(answer: Answer, prediction: Mapping[str, Any]) -> Details:
 
 def _published(answer: Answer) -> Values:
     """Hallucination in both readings and validity, as the published tables have them."""
-    invented = bool(invented_names(answer.level, answer.plan, answer.vocabulary))
+    invented = bool(failures.invented_names(answer.level, answer.plan, answer.vocabulary))
     counted = invented or answer.plan is None
     return {
         "parsed": answer.plan is not None,
@@ -186,40 +155,38 @@ def _names(answer: Answer) -> Values:
     taken for one that names nothing.
     """
     level, task_level = answer.level, answer.level == "task"
-    names = [entry.name for entry in answer.given], [entry.name for entry in answer.wanted]
-    steps = [name_sequence(level, plan) for plan in (answer.plan or {}, answer.expected)]
+    both = [entry.name for entry in answer.given], [entry.name for entry in answer.wanted]
+    steps = [names.name_sequence(level, plan) for plan in (answer.plan or {}, answer.expected)]
     if answer.plan is None and not answer.wanted:
-        names, steps[0] = ([UNPARSED], []), [(UNPARSED,)]
+        both, steps[0] = ([UNPARSED], []), [(UNPARSED,)]
     values: Values = {}
-    for prefix, counts in (("", set_counts(*names)), ("multiset_", multiset_counts(*names))):
-        values[f"{prefix}f1"] = counts.f1
-        values[f"{prefix}precision"] = counts.precision
-        values[f"{prefix}recall"] = counts.recall
+    ways = {"": names.set_counts(*both), "multiset_": names.multiset_counts(*both)}
+    for prefix, counts in ways.items():
+        for key in ("f1", "precision", "recall"):
+            values[f"{prefix}{key}"] = getattr(counts, key)
     if task_level:
-        by_role = counts_by_role(answer.given, answer.wanted)
+        by_role = names.counts_by_role(answer.given, answer.wanted)
         for role in ROLES:
-            values |= _pooled(role, by_role.get(role, Counts(0, 0, 0)))
+            values |= _pooled(role, by_role.get(role, names.Counts(0, 0, 0)))
     flat = [[name for step in sequence for name in step] for sequence in steps]
     return values | {
         "exact_sequence": answer.plan is not None and steps[0] == steps[1],
-        "edit_distance": edit_distance(*flat),
-        "step_edit_distance": edit_distance(*steps) if task_level else None,
-        "lcs_f1": common_subsequence(*flat).f1,
-        "edge_f1": edge_f1(*steps),
+        "edit_distance": names.edit_distance(*flat),
+        "step_edit_distance": names.edit_distance(*steps) if task_level else None,
+        "lcs_f1": names.common_subsequence(*flat).f1,
+        "edge_f1": names.edge_f1(*steps),
     }
 
 
 def _parameters(found: Parameters) -> Values:
-    """Parameters of aligned entries: all right, keys and key-value pairs; these also over the whole
-    plan.
-    """
+    """Parameters of aligned entries: all right, keys, key-value pairs; of the whole plan, too."""
     values: Values = {"parameters_right": found.right, "parameters_matched": found.matched}
     for name in ("keys", "values", "keys_overall", "values_overall"):
         values |= _pooled(f"parameter_{name}", getattr(found, name))
     return values
 
 
-def _pooled(prefix: str, counts: Counts) -> Values:
+def _pooled(prefix: str, counts: names.Counts) -> Values:
     """The terms of an F1 over all samples (`catalogue`)."""
     size = (counts.predicted + counts.expected) / 2
     return {f"{prefix}_right": counts.right, f"{prefix}_size": size}
@@ -228,18 +195,17 @@ def _pooled(prefix: str, counts: Counts) -> Values:
 def plan_logic(answer: Answer) -> tuple[Values, Details]:
     """Metrics that read the command and replay the plan, and details that explain them: `stop`
     (where the plan stops), `ungrounded` values, and `slots` per kind as [stated, in parameters, in
-    the task prompt (null at task level)].
-
-    An answer that does not parse is not grounded, since it gives nothing to judge.
+    the task prompt (null at task level)]. An answer that does not parse is not grounded, since it
+    gives nothing to judge.
     """
     level, plan, vocabulary = answer.level, answer.plan, answer.vocabulary
     mission = level == "mission"
     source = read_input(answer.sample.record, vocabulary)
     grounded = groundedness(level, answer.given, source, vocabulary)
     reached = slot_propagation(level, plan, answer.alignment, source, vocabulary)
-    stop = executable(plan, answer.expected, vocabulary) if mission else None
-    stated, refused = reached.stated.total(), refuses(level, plan)
-    impossible = refuses(level, answer.expected)
+    stop = failures.executable(plan, answer.expected, vocabulary) if mission else None
+    stated, refused = reached.stated.total(), failures.refuses(level, plan)
+    impossible = failures.refuses(level, answer.expected)
     values: Values = {
         "executable": stop is None if mission else None,
         "grounded": plan is not None and not grounded.ungrounded,
@@ -252,18 +218,13 @@ def plan_logic(answer: Answer) -> tuple[Values, Details]:
         "right_refusal": refused if impossible else None,
         "wrong_refusal": None if impossible else refused,
     }
-    ungrounded = [
-        {
-            "entry": given.entry,
-            "name": answer.given[given.entry].name,
-            "parameter": given.parameter.name,
-            "value": given.value,
-        }
-        for given in grounded.ungrounded
-    ]
-    parts = reached.stated, reached.in_parameters, reached.in_prompt if mission else None
+    ungrounded: list[Details] = []
+    for one in grounded.ungrounded:
+        named = {"entry": one.entry, "name": answer.given[one.entry].name}
+        ungrounded.append({**named, "parameter": one.parameter.name, "value": one.value})
+    of_kinds = reached.stated, reached.in_parameters, reached.in_prompt if mission else None
     slots = {
-        kind: [None if part is None else part[kind] for part in parts]
+        kind: [None if part is None else part[kind] for part in of_kinds]
         for kind in KINDS
         if reached.stated[kind]
     }

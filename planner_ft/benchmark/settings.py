@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -66,9 +67,7 @@ class EndpointSettings:
         return urlsplit(self.root).netloc
 
     def api_key(self) -> str | None:
-        """The key, if one is used. Raises PlannerError when the variable is not set or holds no
-        header text.
-        """
+        """The key, if one is used. Raises PlannerError: no such variable, or no header text."""
         if self.api_key_env is None:
             return None
         key = os.environ.get(self.api_key_env, "").strip()
@@ -137,41 +136,39 @@ class BenchSettings:
             planning_samples=(self.planning_samples, 0, 1000),
             repeats=(self.repeats, 1, 1000),
         )
-        problems += [text for text, holds in self._problems().items() if holds]
-        if problems:
+        if problems := [*problems, *self._problems()]:
             raise PlannerError("; ".join(problems))
 
-    def _problems(self) -> dict[str, bool]:
-        """Sentences about what does not go together, and whether that is so."""
+    def _problems(self) -> Iterator[str]:
+        """Sentences about what is out of range or does not go together."""
         greedy, again = self.temperature == 0, "give --temperature, for example 0.7"
-        plans_here = self.level == "mission" and not self.endpoint and greedy
+        if not self.candidates:
+            yield "--candidates: name at least one; `plannerft candidates` lists them"
+        if not self.configurations:
+            yield "--configurations: name at least one"
+        if self.quantization not in (None, "nf4", "none"):
+            yield f"--quantization {self.quantization}: must be nf4 or none"
+        if not 0 <= self.temperature <= 10:
+            yield f"--temperature {self.temperature:g}: must be between 0 (greedy) and 10"
+        if not 0 < self.top_p <= 1:
+            yield f"--top-p {self.top_p:g}: must be above 0 and at most 1"
+        if greedy and self.repeats > 1:
+            yield f"--repeats {self.repeats}: greedy answers are all the same; {again}"
+        if greedy and self.top_p != 1:
+            yield f"--top-p {self.top_p:g}: greedy decoding samples nothing; {again}"
+        if self.resume and self.overwrite:
+            yield "--resume keeps former predictions and --overwrite removes them: give one of them"
+        if self.planning_samples and not (self.level == "mission" and not self.endpoint and greedy):
+            agents = "times both agents from the mission level on, here and greedily"
+            yield f"--planning-samples {agents}: leave it out"
         loaded = {
             "--adapter": self.adapters,
             "--quantization": self.quantization,
             "--device": self.device != "auto",
         }
-        flags = ", ".join(flag for flag, given in loaded.items() if given)
-        return {
-            "--candidates: name at least one; `plannerft candidates` lists them": not self.candidates,
-            "--configurations: name at least one": not self.configurations,
-            f"--quantization {self.quantization}: must be nf4 or none": self.quantization
-            not in (None, "nf4", "none"),
-            f"--temperature {self.temperature:g}: must be between 0 (greedy) and 10": not 0
-            <= self.temperature
-            <= 10,
-            f"--top-p {self.top_p:g}: must be above 0 and at most 1": not 0 < self.top_p <= 1,
-            f"--repeats {self.repeats}: greedy answers are all the same; {again}": greedy
-            and self.repeats > 1,
-            f"--top-p {self.top_p:g}: greedy decoding samples nothing; {again}": greedy
-            and self.top_p != 1,
-            "--resume keeps former predictions and --overwrite removes them: give one of them": (
-                self.resume and self.overwrite
-            ),
-            "--planning-samples times both agents from the mission level on, here and greedily:"
-            " leave it out": bool(self.planning_samples) and not plans_here,
-            f"{flags}: these go with models that are loaded here; leave them out when you give"
-            " --endpoint": bool(self.endpoint and flags),
-        }
+        if self.endpoint and (flags := [flag for flag, given in loaded.items() if given]):
+            here = "these go with models that are loaded here"
+            yield f"{', '.join(flags)}: {here}; leave them out when you give --endpoint"
 
     @property
     def token_limit(self) -> int:

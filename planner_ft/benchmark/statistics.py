@@ -1,6 +1,4 @@
-"""Intervals: Wilson for rates, seeded bootstrap for means; phrasings of one family are not counted
-as independent in either.
-"""
+"""Intervals: Wilson for rates, seeded bootstrap for means; families are not independent samples."""
 
 from __future__ import annotations
 
@@ -9,23 +7,23 @@ import math
 from collections import Counter
 from collections.abc import Hashable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from planner_ft.support.tables import Cell, figure
 
 CONFIDENCE = 0.95
 RESAMPLES = 10_000
 BLOCK = 2**22
 """Numbers that are worked on at a time."""
-
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A figure with its 95 % interval; `value` is None where there is nothing to measure, the
-    bounds where too little.
-    """
+    """A figure with its 95 % interval; None: nothing to measure, or too little for a bound."""
 
     value: float | None
     low: float | None = None
@@ -33,6 +31,10 @@ class Estimate:
 
     def to_json(self) -> dict[str, float | None]:
         return asdict(self)
+
+    def cell(self, **style: Any) -> Cell:
+        """As tables show it, in the style of `figure`."""
+        return figure(self.value, self.low, self.high, **style)
 
 
 def wilson(successes: int, n: int) -> Estimate:
@@ -49,21 +51,18 @@ def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> E
     clusters (Survey Methodology 1998); Dean and Pagano (Journal of Survey Statistics and
     Methodology 2015) compare such intervals.
     """
-    n = len(successes)
-    if not n:
+    if not len(successes):
         return Estimate(None)
-    sizes = Counter(clusters)
     hits = Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit)
-    size = effective_size([(hits[cluster], size) for cluster, size in sizes.items()])
-    return _wilson(hits.total() / n, size)
+    size = effective_size([(hits[cluster], size) for cluster, size in Counter(clusters).items()])
+    return _wilson(hits.total() / len(successes), size)
 
 
 def effective_size(counts: Sequence[tuple[int, int]]) -> float:
     """As how many independent samples the samples of some clusters count for a rate; `counts` are
-    (successes, samples) of each cluster.
-
-    Samples are never counted for more than they are, and for no less than their clusters are. At 0
-    and 1, where a variance says nothing, samples of one cluster count as one.
+    (successes, samples) of each cluster. Samples are never counted for more than they are, and for
+    no less than their clusters are. At 0 and 1, where a variance says nothing, samples of one
+    cluster count as one.
     """
     n, clusters = sum(size for _hits, size in counts), len(counts)
     if clusters == n:
@@ -107,9 +106,7 @@ def quantile(values: Sequence[float], share: float) -> Estimate:
 
 
 def bootstrap_mean(values: Sequence[float], clusters: Sequence[Hashable], seed: int) -> Estimate:
-    """The mean of `values` with its percentile bootstrap interval (Efron 1979), whole clusters
-    resampled together.
-    """
+    """The mean with its percentile bootstrap interval (Efron 1979), whole clusters resampled."""
     return bootstrap_ratio(values, [1.0] * len(values), clusters, seed)
 
 
@@ -136,9 +133,7 @@ def bootstrap_ratio(
 def cluster_sums(
     values: Sequence[Sequence[float]] | Floats, clusters: Sequence[Hashable]
 ) -> Floats:
-    """The sums of `values`, (samples, columns), over each cluster, in the order in which clusters
-    appear: (clusters, columns).
-    """
+    """Sums of `values`, (samples, columns), over clusters as they appear: (clusters, columns)."""
     order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
     sums = np.zeros((len(order), len(values[0])))
     np.add.at(sums, [order[cluster] for cluster in clusters], np.asarray(values, dtype=float))
@@ -146,9 +141,7 @@ def cluster_sums(
 
 
 def resampled_sums(sums: Floats, seed: int) -> Floats:
-    """The totals of RESAMPLES resamples of the clusters: (RESAMPLES, columns). The same seed draws
-    the same clusters for every metric.
-    """
+    """Totals of RESAMPLES resamples, (RESAMPLES, columns); a seed draws the same clusters."""
     return in_blocks(_drawn(len(sums), seed), sums)
 
 
@@ -161,9 +154,7 @@ def in_blocks(weights: NDArray[np.int8], sums: Floats) -> Floats:
 
 @functools.lru_cache(maxsize=2)
 def _drawn(count: int, seed: int) -> NDArray[np.int8]:
-    """How often each of `count` clusters is drawn in every resample. Drawing is the slow part, and
-    the rows of a table share it.
-    """
+    """How often each of `count` clusters is drawn in every resample; a table's rows share it."""
     generator, rows = np.random.default_rng(seed), max(1, BLOCK // count)
     blocks = [
         generator.multinomial(count, np.full(count, 1 / count), size=min(rows, RESAMPLES - start))

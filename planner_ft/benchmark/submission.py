@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import LATENCY, PREDICTIONS
-from planner_ft.benchmark.records import measured_in, read_run
+from planner_ft.benchmark.folder import LATENCY, PREDICTIONS, measured_in, read_run
 from planner_ft.benchmark.results import Measured, Results, System, assemble
 from planner_ft.benchmark.samples import BenchData, joined, load_bench_data
 from planner_ft.candidates import all_candidates
@@ -42,23 +41,14 @@ def score_predictions(
         own = {sample: line for sample, line in lines.items() if _is_timed(line)}
         system = _system(key, lines, vocabulary)
         found.append(Measured(system, lines, {**timed.get(key, {}), **own}))
-    named = {"name": vocabulary.name, "sha256": vocabulary.sha256}
-    manifest = build_manifest(
-        "score",
-        seed=seed,
-        configuration={"level": data.level, "vocabulary": named},
-        inputs={"predictions": path, "data": data.path},
-    )
+    configuration = {"level": data.level, "vocabulary": vocabulary.named}
+    inputs: dict[str, Path | str] = {"predictions": path, "data": data.path}
+    manifest = build_manifest("score", seed=seed, configuration=configuration, inputs=inputs)
     return assemble(data, vocabulary, found, seed=seed, manifest=manifest)
 
 
 def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
-    """Score the answers in a run folder again, with the data that they were made for; no model is
-    needed.
-
-    `data_path` says where the data lies now if it was moved. Raises PlannerError when it is not the
-    same data.
-    """
+    """Score a run again, its data at `data_path` if moved. Raises PlannerError: other data."""
     record = read_run(folder)
     settings = record.settings
     vocabulary = load_vocabulary(settings["vocabulary"])
@@ -73,11 +63,10 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
             way = "restore it to score the run again"
             raise PlannerError(f"{folder}: {name} {problem}; {way}")
     seed = settings["seed"] if seed is None else seed
-    named = {"name": vocabulary.name, "sha256": vocabulary.sha256}
     manifest = build_manifest(
         "score",
         seed=seed,
-        configuration={**settings, "vocabulary": named},
+        configuration={**settings, "vocabulary": vocabulary.named},
         inputs={"data": data.path},
         jobs=record.jobs,
         costs=record.costs,

@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import planner_ft
-from planner_ft.candidates.location import (
-    check_safetensors,
-    file_sha256,
-    safe_weights,
-    weights_sha256,
-)
+from planner_ft.candidates import location
 from planner_ft.candidates.registry import Candidate, Dimensions
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, read_text
+from planner_ft.support.files import read_json, read_text, sha256_tree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -28,20 +22,10 @@ ADAPTERS = Path("adapters")
 PACKAGE = Path(planner_ft.__file__).resolve().parent
 SHIPPED = Path("candidates") / "shipped_adapters"
 """Where a wheel carries the embedded candidate's (tool.hatch.build.targets.wheel.force-include)."""
+AGAIN = "copy the adapter again, or train it again"
 LAYERS = ("q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj")
 EXPONENTS = {"F32": ("<u4", 0x7F800000), "F16": ("<u2", 0x7C00), "BF16": ("<u2", 0x7F80)}
 """Unsigned type and exponent bits of a safetensors dtype: all ones in NaN and infinity."""
-
-
-@dataclass(frozen=True)
-class AdapterInfo:
-    """The contents of an adapter folder; fields are None where it has no manifest of ours."""
-
-    folder: Path
-    rank: int
-    level: Level | None
-    candidate: str | None
-    vocabulary: str | None
 
 
 def adapter_folder(candidate: Candidate, level: Level, root: Path = ADAPTERS) -> Path:
@@ -52,9 +36,8 @@ def adapter_folder(candidate: Candidate, level: Level, root: Path = ADAPTERS) ->
 def find_adapter(
     candidate: Candidate, level: Level, vocabulary: Vocabulary | None = None
 ) -> Path | None:
-    """A candidate's adapter in ./adapters, else in our checkout, else in the package, or None.
-
-    With `vocabulary`, an adapter that was trained with another one is passed over.
+    """A candidate's adapter in ./adapters, our checkout or the package, or None; with `vocabulary`
+    one that was trained with another is passed over.
     """
     checkout = PACKAGE.parent if (PACKAGE.parent / "pyproject.toml").is_file() else None
     for root in (ADAPTERS, *([checkout / ADAPTERS] if checkout else []), PACKAGE / SHIPPED):
@@ -67,11 +50,27 @@ def find_adapter(
     return None
 
 
+def prompt_has_vocabulary(
+    candidate: Candidate, vocabulary: Vocabulary, adapter: Path | None
+) -> bool:
+    """Whether a model is shown the vocabulary: without an adapter where it was not pretrained on
+    it, with one where the adapter was trained so.
+    """
+    if adapter is None:
+        return not candidate.knows(vocabulary)
+    return bool(_manifest(adapter).get("configuration", {}).get("vocabulary_in_prompt"))
+
+
 def seen_in_training(folder: Path) -> set[str]:
     """SHA-256 of an adapter's data files and the digests of their inputs, as far as it says."""
     inputs = _manifest(folder).get("inputs", {})
     files = {str(one.get("sha256")) for one in inputs.values() if isinstance(one, dict)}
     return files | set(read_text(folder / SEEN).split() if (folder / SEEN).is_file() else ())
+
+
+def adapter_sha256(folder: Path) -> str:
+    """One SHA-256 over an adapter's weights and configuration."""
+    return sha256_tree(folder, (WEIGHTS, CONFIG))
 
 
 def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
@@ -82,10 +81,12 @@ def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -
             "repo": candidate.repo,
             "revision": candidate_revision(candidate),
             "standin": candidate.is_standin,
-            "weights_sha256": weights_sha256(candidate.folder) if candidate.folder else None,
+            "weights_sha256": location.weights_sha256(candidate.folder)
+            if candidate.folder
+            else None,
         },
         "level": level,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        "vocabulary": vocabulary.named,
     }
 
 
@@ -101,18 +102,17 @@ def check_adapter(
     *,
     level: Level | None = None,
     vocabulary: Vocabulary | None = None,
-) -> AdapterInfo:
-    """Check that a PEFT adapter folder is complete, safe and made for this candidate.
-
-    Compares level and vocabulary too where they are given. Reads the weights once for a file that
-    does not change. Raises PlannerError in one sentence.
+) -> None:
+    """Check that a PEFT adapter folder is complete, safe and made for this candidate. Compares
+    level and vocabulary too where they are given. Reads the weights once for a file that does not
+    change. Raises PlannerError in one sentence.
     """
     folder = Path(folder)
     if not folder.is_dir():
         command = f"`plannerft train --candidate {candidate.name}`"
         raise PlannerError(f"{folder}: no such adapter folder; train one with {command}")
     config, manifest = _config(folder), _manifest(folder)
-    shapes = check_safetensors(safe_weights(folder, WEIGHTS))
+    shapes = location.check_safetensors(location.safe_weights(folder, WEIGHTS))
     base, trained_with = manifest.get("base", {}), manifest.get("vocabulary", {})
     if base:
         _check_base(folder, base, candidate)
@@ -122,19 +122,14 @@ def check_adapter(
     _check_content(folder, manifest.get("outputs", {}))
     its_level, name = manifest.get("level"), trained_with.get("name")
     if level and its_level not in (None, level):
-        other = f"an adapter of the {its_level} level, not of the {level} level"
-        raise PlannerError(
-            f"{folder}: this is {other}; give --level {its_level} or another --adapter"
-        )
+        other = f"this is an adapter of the {its_level} level, not of the {level} level"
+        raise PlannerError(f"{folder}: {other}; give --level {its_level} or another --adapter")
     if vocabulary and trained_with and trained_with.get("sha256") != vocabulary.sha256:
         other = f"the vocabulary {name}, not {vocabulary.name}"
         if name == vocabulary.name:
             other = f"another version of the vocabulary {name}"
-        raise PlannerError(
-            f"{folder}: this adapter was trained with {other}; give that one with --vocabulary, or"
-            " train again"
-        )
-    return AdapterInfo(folder, int(config["r"]), its_level, base.get("name"), name)
+        way = "give that one with --vocabulary, or train again"
+        raise PlannerError(f"{folder}: this adapter was trained with {other}; {way}")
 
 
 def _manifest(folder: Path) -> dict[str, Any]:
@@ -144,24 +139,19 @@ def _manifest(folder: Path) -> dict[str, Any]:
     manifest, parts = read_json(folder / MANIFEST), ("base", "vocabulary", "outputs", "inputs")
     if isinstance(manifest, dict) and all(isinstance(manifest.get(p, {}), dict) for p in parts):
         return manifest
-    raise PlannerError(
-        f"{folder / MANIFEST}: no manifest of an adapter; restore it, or remove it to load the"
-        " folder as a plain PEFT adapter"
-    )
+    way = "restore it, or remove it to load the folder as a plain PEFT adapter"
+    raise PlannerError(f"{folder / MANIFEST}: no manifest of an adapter; {way}")
 
 
 def _check_content(folder: Path, digests: dict[str, str]) -> None:
     """Weights must be finite, and files those that the manifest's `outputs` name."""
     for path in (folder / WEIGHTS, folder / CONFIG):
-        if digests.get(path.name) not in (None, file_sha256(path)):
-            raise PlannerError(
-                f"{path}: not the file that training wrote ({MANIFEST} has another digest); copy"
-                " the adapter again, or train it again"
-            )
+        if digests.get(path.name) not in (None, location.file_sha256(path)):
+            why = f"not the file that training wrote ({MANIFEST} has another digest)"
+            raise PlannerError(f"{path}: {why}; {AGAIN}")
     status = (folder / WEIGHTS).stat()
     if name := _infinite_tensor(folder / WEIGHTS, status.st_size, status.st_mtime_ns):
-        way_out = "copy the adapter again, or train it again"
-        raise PlannerError(f"{folder / WEIGHTS}: {name} holds NaN or infinity; {way_out}")
+        raise PlannerError(f"{folder / WEIGHTS}: {name} holds NaN or infinity; {AGAIN}")
 
 
 @functools.lru_cache(maxsize=64)
@@ -180,9 +170,8 @@ def _infinite_tensor(path: Path, size: int, modified: int) -> str | None:
 
 def _config(folder: Path) -> dict[str, Any]:
     if not (folder / CONFIG).is_file():
-        raise PlannerError(
-            f"{folder}: no {CONFIG}; an adapter is a PEFT folder as `plannerft train` writes it"
-        )
+        wanted = "an adapter is a PEFT folder as `plannerft train` writes it"
+        raise PlannerError(f"{folder}: no {CONFIG}; {wanted}")
     config = read_json(folder / CONFIG)
     lora = isinstance(config, dict) and config.get("peft_type") == "LORA"
     if lora and isinstance(config.get("r"), int):
@@ -197,15 +186,12 @@ def _check_base(folder: Path, base: dict[str, Any], candidate: Candidate) -> Non
     here = f"{candidate.name}{' (stand-in)' if candidate.is_standin else ''}"
     if trained != here:
         way_out = f"give --candidate {base.get('name')} or another --adapter"
-        raise PlannerError(
-            f"{folder}: this adapter was trained on {trained} and does not fit {here}; {way_out}"
-        )
+        other = f"this adapter was trained on {trained} and does not fit {here}"
+        raise PlannerError(f"{folder}: {other}; {way_out}")
     recorded = base.get("weights_sha256")
-    if candidate.folder and recorded not in (None, weights_sha256(candidate.folder)):
-        raise PlannerError(
-            f"{folder}: this adapter was trained on other weights of {candidate.name} than those in"
-            f" {candidate.folder}; train it again"
-        )
+    if candidate.folder and recorded not in (None, location.weights_sha256(candidate.folder)):
+        other = f"other weights of {candidate.name} than those in {candidate.folder}"
+        raise PlannerError(f"{folder}: this adapter was trained on {other}; train it again")
 
 
 def _check_reference(folder: Path, reference: str | None, candidate: Candidate) -> None:
@@ -217,10 +203,9 @@ def _check_reference(folder: Path, reference: str | None, candidate: Candidate) 
     known = {name.lower() for name in names if name}
     cached = repo and f"models--{repo.replace('/', '--')}/".lower() in reference.lower()
     if not cached and not known & {reference.lower(), Path(reference).name.lower()}:
-        raise PlannerError(
-            f"{folder}: this adapter was trained on {reference}, not on {candidate.name}; give that"
-            " base with --candidate, or another --adapter"
-        )
+        other = f"this adapter was trained on {reference}, not on {candidate.name}"
+        way = "give that base with --candidate, or another --adapter"
+        raise PlannerError(f"{folder}: {other}; {way}")
 
 
 def _check_shapes(
@@ -237,7 +222,5 @@ def _check_shapes(
         fits = shape[-1] == rows if ".lora_A." in name else shape[0] == columns
         block = next((int(part) for part in name.split(".") if part.isdigit()), 0)
         if not fits or block >= dimensions.layers:
-            raise PlannerError(
-                f"{folder / WEIGHTS}: {name} of shape {list(shape)} does not fit the base model;"
-                " the adapter belongs to another base"
-            )
+            why = f"{name} of shape {list(shape)} does not fit the base model"
+            raise PlannerError(f"{folder / WEIGHTS}: {why}; the adapter belongs to another base")

@@ -14,13 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import planner_ft
-from planner_ft.candidates.loading import (
-    compute_dtype,
-    download_command,
-    how_to_get,
-    quiet_libraries,
-    resolve_device,
-)
+from planner_ft.candidates import loading
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_cache
 from planner_ft.candidates.memory import GIB, device_memory, memory_summary
 from planner_ft.candidates.packing import set_packing
@@ -51,10 +45,8 @@ Found = dict[str, Any]
 
 
 def describe(candidate: Candidate) -> Found:
-    """One row of `plannerft candidates` as JSON values.
-
-    `memory` is in GiB, None where the dimensions are unknown. `here` is true when the files are
-    complete; else `problem` or `get` says the way out, and `command` downloads it.
+    """One row of `plannerft candidates` as JSON values: `memory` in GiB, None if unknown; where it
+    is not `here`, complete, `problem` or `get` says the way out, and `command` downloads it.
     """
     missing, problem = candidate.folder is None, None
     try:
@@ -71,8 +63,8 @@ def describe(candidate: Candidate) -> Found:
         "folder": None if missing else str(candidate.folder),
         "source": candidate.source,
         "problem": problem,
-        "get": how_to_get(candidate) if missing else None,
-        "command": download_command(candidate) if missing else None,
+        "get": loading.how_to_get(candidate) if missing else None,
+        "command": loading.download_command(candidate) if missing else None,
     }
 
 
@@ -130,10 +122,8 @@ def _libraries(warnings: list[str]) -> Found:
     if missing:
         warnings.append(f"not installed: {', '.join(missing)}; run `pip install -e .` again")
     if importlib.util.find_spec("kernels"):
-        warnings.append(
-            "the package `kernels` is installed: bitsandbytes then fetches compiled code from the"
-            " hub when it is imported; uninstall it to prevent that"
-        )
+        what = "bitsandbytes then fetches compiled code from the hub when it is imported"
+        warnings.append(f"the package `kernels` is installed: {what}; uninstall it to prevent that")
     return dict(versions)
 
 
@@ -158,13 +148,13 @@ def _machine() -> Found:
 def _devices(warnings: list[str]) -> Found:
     import torch
 
-    chosen = resolve_device("auto")
+    chosen = loading.resolve_device("auto")
     found: Found = {
         "torch": torch.__version__,
         "cuda build": torch.version.cuda,
         "threads": torch.get_num_threads(),
         "chosen by --device auto": str(chosen),
-        "compute dtype": str(compute_dtype(chosen)).removeprefix("torch."),
+        "compute dtype": str(loading.compute_dtype(chosen)).removeprefix("torch."),
     }
     for index in range(torch.cuda.device_count()):
         device = torch.cuda.get_device_properties(index)
@@ -173,10 +163,11 @@ def _devices(warnings: list[str]) -> Found:
         found[f"cuda:{index}"] = f"{capability}, {free:.1f} of {total:.1f} GiB free"
     driver = shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
     if driver and not torch.cuda.is_available():
-        warnings.append(
-            f"there is an NVIDIA driver, but torch {torch.__version__} finds no CUDA device;"
-            " install a CUDA build of torch (https://pytorch.org/get-started)"
+        found_none = (
+            f"there is an NVIDIA driver, but torch {torch.__version__} finds no CUDA device"
         )
+        way = "install a CUDA build of torch (https://pytorch.org/get-started)"
+        warnings.append(f"{found_none}; {way}")
     return found
 
 
@@ -195,17 +186,15 @@ def _four_bit(warnings: list[str]) -> Found:
 
 
 def probe_four_bit(device: str = "auto") -> Found:
-    """Quantise a layer to NF4, multiply with it and take a gradient through it.
-
-    Errors are relative norms; `packs`: layers pack for decoding (AVX512-BF16 CPUs); `problem` is
-    None if all is well.
+    """Quantise a layer to NF4, multiply with it and take a gradient through it: errors as relative
+    norms, whether layers pack for decoding (AVX512-BF16 CPUs), and the problem or None.
     """
-    target = resolve_device(device)
-    dtype = compute_dtype(target)
+    target = loading.resolve_device(device)
+    dtype = loading.compute_dtype(target)
     begun, problem = time.perf_counter(), None
     weight, gradient, packs = None, None, False
     try:
-        quiet_libraries()
+        loading.quiet_libraries()
         weight, gradient, packs = _try_layer(target, dtype)
         if not (weight < WEIGHT_ERROR and gradient < GRADIENT_ERROR):
             errors = f"error {weight:.3f} of the product, {gradient:.3f} of the gradient"

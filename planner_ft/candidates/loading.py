@@ -113,10 +113,8 @@ def load_tokenizer(candidate: Candidate) -> PreTrainedTokenizerBase:
     try:
         tokenizer = kind.from_pretrained(folder, local_files_only=True, trust_remote_code=False)
     except Exception as error:  # tokenizers raises bare Exception for a corrupt tokenizer.json
-        raise PlannerError(
-            f"{folder}: the tokenizer cannot be loaded ({_one_line(error)}); download its files"
-            " again"
-        ) from error
+        why = f"the tokenizer cannot be loaded ({_one_line(error)})"
+        raise PlannerError(f"{folder}: {why}; download its files again") from error
     if tokenizer.pad_token is None:
         known = (token for token in PAD_TOKENS if token in tokenizer.get_vocab())
         tokenizer.pad_token = next(known, tokenizer.eos_token)
@@ -188,11 +186,9 @@ def _load_base(folder: Path, device: torch.device, quantization: Quantization) -
     dtype = compute_dtype(device)
     settings: dict[str, Any] = {}
     if quantization == "nf4":
+        double = {"bnb_4bit_quant_type": "nf4", "bnb_4bit_use_double_quant": True}
         settings["quantization_config"] = BitsAndBytesConfig(
-            load_in_4bit=True,
-            bnb_4bit_quant_type="nf4",
-            bnb_4bit_use_double_quant=True,
-            bnb_4bit_compute_dtype=dtype,
+            load_in_4bit=True, bnb_4bit_compute_dtype=dtype, **double
         )
     large = sum(path.stat().st_size for path in folder.glob("*.safetensors")) >= LARGE
     with contextlib.nullcontext() if large else quiet_bars():
@@ -234,15 +230,13 @@ def _loading_errors(candidate: Candidate, folder: Path, device: torch.device) ->
     except Exception as error:  # the libraries raise anything, down to bare Exception
         full = isinstance(error, torch.cuda.OutOfMemoryError | MemoryError)
         if full or "allocate memory" in str(error) or "out of memory" in str(error):
-            raise PlannerError(
-                f"{candidate.name} does not fit the memory of {device}; close other programs, take"
-                " a smaller candidate (`plannerft candidates` estimates their memory) or another"
-                " --device"
-            ) from error
-        raise PlannerError(
-            f"{folder}: the model cannot be loaded ({_one_line(error)}); check its config.json"
-            " against its weights, or download it again"
-        ) from error
+            smaller = "a smaller candidate (`plannerft candidates` estimates their memory)"
+            way = f"close other programs, take {smaller} or another --device"
+            problem = f"{candidate.name} does not fit the memory of {device}; {way}"
+            raise PlannerError(problem) from error
+        why = f"the model cannot be loaded ({_one_line(error)})"
+        way = "check its config.json against its weights, or download it again"
+        raise PlannerError(f"{folder}: {why}; {way}") from error
 
 
 def _one_line(error: BaseException) -> str:

@@ -1,7 +1,4 @@
-"""Where a candidate's files lie on this machine, and whether they are complete and safe to load.
-
-Never downloads.
-"""
+"""Where a candidate's files lie here, complete and safe to load or not. Never downloads."""
 
 from __future__ import annotations
 
@@ -39,7 +36,6 @@ def find_folder(
 
 def cached_snapshot(repo: str, revision: str | None) -> Path | None:
     """The folder of a repository's snapshot in the hub cache (HF_HUB_CACHE, HF_HOME), or None.
-
     Reads the cache's documented layout: importing huggingface_hub would cost half a second.
     """
     base = hub_cache() / f"models--{repo.replace('/', '--')}"
@@ -91,10 +87,9 @@ def weight_files(folder: Path) -> list[Path]:
     shards = sorted(set(read_json(index).get("weight_map", {}).values()))
     missing = [name for name in shards if not (folder / name).is_file()]
     if missing or not shards:
-        raise PlannerError(
-            f"{folder}: {len(missing)} of {len(shards)} weight files are missing"
-            f" ({', '.join(missing[:2])} ...); finish the download"
-        )
+        lack = f"{len(missing)} of {len(shards)} weight files are missing"
+        names = f"({', '.join(missing[:2])} ...)"
+        raise PlannerError(f"{folder}: {lack} {names}; finish the download")
     return [folder / name for name in shards]
 
 
@@ -104,14 +99,14 @@ def safe_weights(folder: Path, name: str) -> Path:
         return folder / name
     pickled = sorted(path for pattern in PICKLED for path in folder.glob(pattern))
     if pickled:
-        raise PlannerError(
-            f"{folder}: only pickled weights ({pickled[0].name}), which are never loaded because"
-            f" they can run code; get or save them as {name}"
+        why = (
+            f"only pickled weights ({pickled[0].name}), which are never loaded because they can run"
         )
-    raise PlannerError(
-        f"{folder}: no {name}; finish the download or training that writes it, or give the folder"
-        " that holds the weights"
+        raise PlannerError(f"{folder}: {why} code; get or save them as {name}")
+    way = (
+        "finish the download or training that writes it, or give the folder that holds the weights"
     )
+    raise PlannerError(f"{folder}: no {name}; {way}")
 
 
 def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
@@ -120,18 +115,16 @@ def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:
 
     try:
         with safe_open(str(path), framework="np") as tensors:
-            return {name: tuple(tensors.get_slice(name).get_shape()) for name in tensors.keys()}  # noqa: SIM118
+            names = list(tensors.keys())
+            return {name: tuple(tensors.get_slice(name).get_shape()) for name in names}
     except (SafetensorError, OSError, ValueError) as error:
-        reason = str(error).splitlines()[0]
-        raise PlannerError(
-            f"{path}: corrupt or no safetensors file ({reason}); download it again"
-        ) from None
+        why = f"corrupt or no safetensors file ({str(error).splitlines()[0]})"
+        raise PlannerError(f"{path}: {why}; download it again") from None
 
 
 def weights_sha256(folder: Path) -> str:
-    """One SHA-256 over names and digests of a model's weight files and config.json.
-
-    Files of the hub cache are links to blobs that are named by their SHA-256; only others are read.
+    """One SHA-256 over names and digests of a model's weight files and config.json. Files of the
+    hub cache are links to blobs that are named by their SHA-256; only others are read.
     """
     lines = []
     for path in (folder / "config.json", *weight_files(folder)):

@@ -70,7 +70,6 @@ def adapter_parameters(dimensions: Dimensions, rank: int = RANK) -> int:
 
 def block_activations(dimensions: Dimensions, rank: int = RANK, *, dropout: bool = False) -> int:
     """Bytes a token that a block keeps for the backward pass, with LoRA on its seven linear layers.
-
     The two norms keep their input in float32 (8 hidden). Every LoRA pair keeps its input in float32
     (4 in) and its inner value (4 rank); with dropout also a mask (1 in). Attention keeps query,
     key, value and output, the gated MLP three values of its width, all in 16 bits.
@@ -91,11 +90,10 @@ def training_memory(
     dropout: bool = False,
     checkpointing: bool = False,
 ) -> MemoryEstimate:
-    """Memory to train an adapter with Adam on `batch` samples of `tokens` tokens.
-
-    With gradient checkpointing a block keeps its 16-bit input alone and one block at a time is
-    computed again. The logits take 12 bytes each at the peak: 16-bit values, float32 log-softmax,
-    and the gradient of both.
+    """Memory to train an adapter with Adam on `batch` samples of `tokens` tokens. With gradient
+    checkpointing a block keeps its 16-bit input alone and one block at a time is computed again.
+    The logits take 12 bytes each at the peak: 16-bit values, float32 log-softmax, and the gradient
+    of both.
     """
     adapter = 4 * adapter_parameters(dimensions, rank)
     block, layers = block_activations(dimensions, rank, dropout=dropout), dimensions.layers
@@ -133,7 +131,7 @@ def memory_summary(candidate: Candidate) -> dict[str, Any] | None:
     dimensions = candidate.dimensions
     if dimensions is None:
         return None
-    rank = max([RANK, *(settings.rank or 0 for settings in candidate.adapter.values())])
+    rank = max([RANK, *(settings.get("rank", 0) for settings in candidate.adapter.values())])
     train = training_memory(dimensions, rank=rank)
     saving = training_memory(dimensions, rank=rank, checkpointing=True)
     infer = inference_memory(dimensions, rank=rank)

@@ -26,7 +26,6 @@ PACKING_ROWS = 32
 
 def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
     """Allow or forbid CPU packing of the model's 4-bit layers; return how many layers may pack.
-
     Layers whose shape the packed layout cannot hold never pack (bitsandbytes would fail on them).
     Raises PlannerError when packing is to be forbidden and a layer is packed already: load the
     model anew with `trainable=True`.
@@ -36,10 +35,8 @@ def set_packing(model: torch.nn.Module, *, allowed: bool) -> int:
     allowing = 0
     for name, layer in linear_4bit(model):
         if not allowed and is_packed(layer):
-            raise PlannerError(
-                f"layer {name} is already packed for decoding and would give wrong gradients; load"
-                " the model with trainable=True"
-            )
+            why = "is already packed for decoding and would give wrong gradients"
+            raise PlannerError(f"layer {name} {why}; load the model with trainable=True")
         whole = allowed and has_avx512bf16() and layer.out_features % PACKING_ROWS == 0
         fits = whole and layer.in_features % layer.weight.quant_state.blocksize == 0
         layer.support_avx512bf16_for_cpu = bool(fits)

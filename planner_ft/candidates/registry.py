@@ -90,25 +90,10 @@ class Dimensions:
 
 
 @dataclass(frozen=True)
-class AdapterDefaults:
-    """Adapter settings of one level that differ from the published ones; None: as published."""
-
-    rank: int | None = None
-    alpha: int | None = None
-    dropout: float | None = None
-    learning_rate: float | None = None
-    epochs: float | None = None
-    batch_size: int | None = None
-    quantization: Quantization | None = None
-    vary: int | None = None
-
-
-@dataclass(frozen=True)
 class Candidate:
-    """A language model that can be prompted, fine-tuned and benchmarked.
-
-    `folder` is where it lies on this machine, None when it is not here. `vocabulary` names the
-    vocabulary that it was pretrained on; `adapter` holds there, `other_vocabulary` elsewhere.
+    """A language model that can be prompted, fine-tuned and benchmarked. `folder` is where it lies
+    on this machine, None when it is not here. `vocabulary` names the vocabulary that it was
+    pretrained on; `adapter` holds there, `other_vocabulary` elsewhere.
     """
 
     name: str
@@ -120,8 +105,8 @@ class Candidate:
     gated: bool = False
     vocabulary: str | None = None
     dimensions: Dimensions | None = None
-    adapter: dict[Level, AdapterDefaults] = field(default_factory=dict)
-    other_vocabulary: dict[Level, AdapterDefaults] = field(default_factory=dict)
+    adapter: dict[Level, dict[str, Any]] = field(default_factory=dict)
+    other_vocabulary: dict[Level, dict[str, Any]] = field(default_factory=dict)
     folder: Path | None = None
     source: Source | None = None
     is_standin: bool = False
@@ -142,6 +127,11 @@ class Candidate:
         return self.name.replace("/", "--")
 
     @property
+    def given_as(self) -> str:
+        """What resolves to it again: its folder where it was given as one, else its name."""
+        return str(self.folder) if self.source == "path" else self.name
+
+    @property
     def reference(self) -> str:
         """The hub id or folder (relative to here where it lies below) that plain PEFT loads."""
         if self.repo and self.source in (None, "hub cache"):
@@ -151,10 +141,17 @@ class Candidate:
         below = self.folder.is_relative_to(Path.cwd())
         return str(self.folder.relative_to(Path.cwd()) if below else self.folder)
 
-    def adapter_defaults(self, level: Level, vocabulary: Vocabulary) -> AdapterDefaults:
+    def adapter_defaults(self, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
         """Its deviations from the published adapter settings at `level`, for this vocabulary."""
         other = self.vocabulary is not None and not self.knows(vocabulary)
-        return (self.other_vocabulary if other else self.adapter).get(level, AdapterDefaults())
+        return (self.other_vocabulary if other else self.adapter).get(level, {})
+
+    def stored_as(
+        self, level: Level, vocabulary: Vocabulary, asked: Quantization | None
+    ) -> Quantization:
+        """The quantization that was asked for, else the one that its adapters are trained with."""
+        trained: Quantization = self.adapter_defaults(level, vocabulary).get("quantization", "nf4")
+        return asked or trained
 
     def knows(self, vocabulary: Vocabulary) -> bool:
         """Whether it was pretrained on exactly this vocabulary: no prompt needs to list it."""
@@ -170,7 +167,6 @@ def all_candidates() -> list[Candidate]:
 
 def resolve_candidate(name_or_path: str | Path) -> Candidate:
     """The candidate of a registered name, hub id ("org/name", "org/name@revision") or local folder.
-
     Loads nothing, and succeeds for models that are not on this machine (`folder` is None then).
     Raises PlannerError for a name that is none of these.
     """
@@ -204,9 +200,6 @@ def _registered() -> tuple[Candidate, ...]:
     found = []
     for entry in tomllib.loads(read_text(REGISTRY))["candidate"]:
         sizes = entry.pop("dimensions", None)
-        for key in {"adapter", "other_vocabulary"} & entry.keys():
-            levels = entry[key].items()
-            entry[key] = {level: AdapterDefaults(**settings) for level, settings in levels}
         found.append(Candidate(**entry, dimensions=Dimensions(**sizes) if sizes else None))
     return tuple(found)
 

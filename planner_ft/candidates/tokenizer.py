@@ -34,9 +34,7 @@ class FileTokenizer:
 
     @classmethod
     def read(cls, folder: Path) -> FileTokenizer | None:
-        """The tokenizer of a folder; None where transformers has to load it. Raises PlannerError
-        for a corrupt one.
-        """
+        """A folder's tokenizer, None where transformers must load it. Raises PlannerError."""
         from tokenizers import Tokenizer
 
         settings = read_config(folder, "tokenizer_config.json")
@@ -45,9 +43,8 @@ class FileTokenizer:
         try:
             backend = Tokenizer.from_file(str(folder / "tokenizer.json"))
         except Exception as error:  # the library raises bare Exception
-            raise PlannerError(
-                f"{folder}: the tokenizer cannot be loaded ({error}); download its files again"
-            ) from error
+            why = f"the tokenizer cannot be loaded ({error}); download its files again"
+            raise PlannerError(f"{folder}: {why}") from error
         named = [settings.get(name) for name in NAMED]
         more = settings.get("extra_special_tokens") or []
         known = {token.content for token in backend.get_added_tokens_decoder().values()}

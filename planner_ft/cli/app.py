@@ -7,16 +7,15 @@ from typing import Annotated
 import typer
 
 from planner_ft.cli.bench import bench, score
-from planner_ft.cli.calibrate import calibrate
 from planner_ft.cli.candidates import candidates, doctor
 from planner_ft.cli.compare import compare, report
-from planner_ft.cli.curve import learning_curve
 from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
 from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
 from planner_ft.cli.review import review, verify
 from planner_ft.cli.simulate import simulate
-from planner_ft.cli.train import train
+from planner_ft.cli.skill import skill
+from planner_ft.cli.train import calibrate, learning_curve, train
 from planner_ft.support.terminal import show
 
 app = typer.Typer(
@@ -43,9 +42,8 @@ def _version(value: bool) -> None:
         raise typer.Exit
 
 
-VERSION = typer.Option(
-    "--version", callback=_version, is_eager=True, help="Show the version and exit."
-)
+SHOWN = "Show the version and exit."
+VERSION = typer.Option("--version", callback=_version, is_eager=True, help=SHOWN)
 
 
 @app.callback()
@@ -53,18 +51,7 @@ def options(version: Annotated[bool, VERSION] = False) -> None:
     """Options of every command."""
 
 
+PLANS = (plan, review, verify, simulate, skill, gen_data, validate)
 MEASURING = (candidates, train, calibrate, bench, score, compare, learning_curve, report)
-for command in (
-    plan,
-    review,
-    verify,
-    simulate,
-    gen_data,
-    validate,
-    *MEASURING,
-    export,
-    vocabulary,
-    vehicle,
-    doctor,
-):
+for command in (*PLANS, *MEASURING, export, vocabulary, vehicle, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

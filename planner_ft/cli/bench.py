@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.cli.options import command, given, typed
@@ -28,80 +29,35 @@ OUTPUT = "give --overwrite or another --out"
 
 
 @command
-def bench(
-    level: str | None = None,
-    candidates: str | None = None,
-    configurations: str | None = None,
-    data: Path | None = None,
-    limit: int | None = None,
-    adapter: list[str] | None = None,
-    out: Path | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    device: str = "auto",
-    quantization: str | None = None,
-    batch_size: str = "auto",
-    max_new_tokens: int | None = None,
-    latency_samples: int | None = None,
-    planning_samples: int | None = None,
-    vocabulary: str | None = None,
-    repeats: int | None = None,
-    temperature: float | None = None,
-    top_p: float | None = None,
-    seed: int = 0,
-    endpoint: str | None = None,
-    model: str | None = None,
-    api_key_env: str | None = None,
-    concurrency: int | None = None,
-    timeout: float | None = None,
-    retries: int | None = None,
-    suite: Path | None = None,
-    processes: int = 1,
-    gate: Path | None = None,
-    field: bool = False,
-    cases: list[Path] | None = None,
-    no_report: bool = False,
-) -> None:
+def bench(**options: Any) -> None:
     """Benchmark candidates, run a suite or gate file, or field cases."""
-    named, served = given(locals(), *RUN), given(locals(), *SERVER)
-    generation = {"device": device, "batch_size": _batch_size(batch_size), "seed": seed}
-    rerun = {"resume": resume, "overwrite": overwrite}
+    named, served = given(options, *RUN), given(options, *SERVER)
+    generation = {name: options[name] for name in ("device", "seed")}
+    generation["batch_size"] = _batch_size(options["batch_size"])
+    rerun = {name: options[name] for name in ("resume", "overwrite")}
+    out, cases, field = options["out"], options["cases"], options["field"]
+    suite, gate, report = options["suite"], options["gate"], not options["no_report"]
     if cases and not field:
         raise PlannerError(f"{cases[0]}: files stand behind --field; test data is given by --data")
-    if field:
-        from planner_ft.cli.field import check_flags, run_field
+    if field or options["level"] == "both":
+        from planner_ft.cli.field import run_whole
 
-        check_flags(named | served | ({"resume": True} if resume else {}), "--field")
-        run_field(cases or [], out or Path("eval/runs/field"), named, device, overwrite=overwrite)
-    elif level == "both":
-        from planner_ft.cli.field import check_flags, run_both
-
-        given_flags = named | served | ({"resume": True} if resume else {})
-        check_flags(given_flags, "--level both", "level", "data")
-        run_both(data, out or Path("eval/runs/both"), named, device, overwrite=overwrite)
+        whole = named | served | ({"resume": True} if rerun["resume"] else {})
+        whole["device"], found = options["device"], (cases or []) if field else None
+        run_whole(found, out, whole, overwrite=rerun["overwrite"])
     elif suite is not None:
         _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
-        _run_suite(suite, out, generation | named, rerun, processes, report=not no_report)
+        how = {"processes": options["processes"], **rerun}
+        _run_suite(suite, out, generation | named, how, report=report)
     elif gate is not None:
         _check_file_alone("gate", gate, named | served)
         _run_gate(gate, out, generation | rerun)
     else:
-        _run(_settings(named, served, out=out, **generation, **rerun), report=not no_report)
+        _run(_settings(named, served, out=out, **generation, **rerun), report=report)
 
 
 @command
-def score(
-    level: str | None = None,
-    predictions: Path | None = None,
-    run: Path | None = None,
-    data: Path | None = None,
-    out: Path | None = None,
-    limit: int | None = None,
-    name: str | None = None,
-    vocabulary: str = "usv",
-    seed: int = 0,
-    overwrite: bool = False,
-) -> None:
+def score(**options: Any) -> None:
     """Score any system's outputs, or a bench run again."""
     from planner_ft.benchmark import folder
     from planner_ft.benchmark.samples import default_data, load_bench_data
@@ -109,23 +65,24 @@ def score(
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
-    with alone(out, "--out", "a benchmark"):
-        if out is not None:
-            folder.check_folder(out, () if overwrite else folder.SCORED, OUTPUT)
-        if run is not None and predictions is None and level is None:
-            results = score_run(run, data, seed=seed)
-        elif level is not None and predictions is not None and run is None:
-            checked, definition = check_level(level), load_vocabulary(vocabulary)
-            samples = load_bench_data(
-                data or default_data(checked, definition), checked, definition, limit
-            )
-            results = score_predictions(predictions, samples, definition, seed=seed, name=name)
+    o = SimpleNamespace(**options)
+    with alone(o.out, "--out", "a benchmark"):
+        if o.out is not None:
+            folder.check_folder(o.out, () if o.overwrite else folder.SCORED, OUTPUT)
+        if o.run is not None and o.predictions is None and o.level is None:
+            results = score_run(o.run, o.data, seed=o.seed)
+        elif o.level is not None and o.predictions is not None and o.run is None:
+            level, vocabulary = check_level(o.level), load_vocabulary(o.vocabulary)
+            data = o.data or default_data(level, vocabulary)
+            samples = load_bench_data(data, level, vocabulary, o.limit)
+            named = {"seed": o.seed, "name": o.name}
+            results = score_predictions(o.predictions, samples, vocabulary, **named)
         else:
             ways = "score needs either --level and --predictions, or --run alone"
             raise PlannerError(f"{ways}; try: plannerft score --run eval/runs/mission")
-        if out is not None:
-            folder.write_results(out, results)
-    _show(results, out)
+        if o.out is not None:
+            folder.write_results(o.out, results)
+    _show(results, o.out)
 
 
 def _batch_size(text: str) -> int | None:
@@ -170,8 +127,7 @@ def _with_endpoint(
 
 
 def _run(settings: BenchSettings, *, report: bool) -> None:
-    from planner_ft.benchmark.ranks import join_ranks
-    from planner_ft.benchmark.runner import help_bench, run_bench
+    from planner_ft.benchmark.runner import help_bench, join_ranks, run_bench
 
     ranks = join_ranks()
     if not ranks.leads:
@@ -189,7 +145,7 @@ def _check_file_alone(
     kind: str, path: Path, named: dict[str, Any], allowed: tuple[str, ...] = ()
 ) -> None:
     """Raise PlannerError for flags that a suite or gate file sets itself, and under accelerate."""
-    from planner_ft.benchmark.ranks import started_with_others
+    from planner_ft.benchmark.runner import started_with_others
 
     if started_with_others():
         way_out = "a suite shares its runs itself with --processes N"
@@ -200,20 +156,14 @@ def _check_file_alone(
 
 
 def _run_suite(
-    path: Path,
-    out: Path | None,
-    changes: dict[str, Any],
-    rerun: dict[str, bool],
-    processes: int,
-    *,
-    report: bool,
+    path: Path, out: Path | None, changes: dict[str, Any], how: dict[str, Any], *, report: bool
 ) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
+    from planner_ft.benchmark.layout import print_warnings
     from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
-    from planner_ft.benchmark.terminal import print_warnings
 
-    if all(rerun.values()):
+    if how["resume"] and how["overwrite"]:
         problem = "--resume keeps former results and --overwrite removes them"
         raise PlannerError(f"{problem}: give one of them")
     suite = load_suite(path)
@@ -226,7 +176,7 @@ def _run_suite(
         def shown(state: State) -> None:
             step(state.unit, _state_line(state))
 
-        parts = run_suite(suite, folder, changes, shown, processes=processes, **rerun)
+        parts = run_suite(suite, folder, changes, shown, **how)
     show((folder / "table.md").read_text(encoding="utf-8"))
     for part in parts:
         print_warnings(part.results, terminal(stderr=True))
@@ -283,7 +233,7 @@ def _report(folder: Path) -> None:
 def _show(results: Results, out: Path | None) -> None:
     """Print the table, the samples without a prediction and the names of the files."""
     from planner_ft.benchmark.folder import TABLES
-    from planner_ft.benchmark.terminal import print_results, print_warnings
+    from planner_ft.benchmark.layout import print_results, print_warnings
 
     print_results(results, terminal())
     print_warnings(results, terminal(stderr=True))

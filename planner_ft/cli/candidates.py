@@ -9,19 +9,15 @@ from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
     from rich.table import Table
+    from rich.text import Text
 
 ESTIMATES = (
     "Estimates: 4-bit weights, batch size 1; to train an adapter on 1024 tokens, to run it on 2048"
     " tokens. * with gradient checkpointing."
 )
-GATED = (
-    " (gated ones: first accept the licence at https://huggingface.co/REPOSITORY and run `hf auth"
-    " login`)"
-)
-OFFLINE = (
-    "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
-    " names."
-)
+PAGE = "https://huggingface.co/REPOSITORY"
+GATED = f" (gated ones: first accept the licence at {PAGE} and run `hf auth login`)"
+OFFLINE = "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
 SHORTENED = (" Community", " License", " (non-commercial)")
 
 
@@ -50,7 +46,7 @@ def candidates(names: list[str] | None = None, json: bool = False) -> None:
         console.print(f"\nTo get one that is not here{gated}:")
         for row in missing:
             console.print(f"  {row['command']}", markup=False)
-        console.print(OFFLINE)
+        console.print(f"{OFFLINE} names.")
 
 
 @command
@@ -98,14 +94,16 @@ def _table(rows: list[dict[str, Any]]) -> Table:
     return table
 
 
-def _here(row: dict[str, Any]) -> str:
+def _here(row: dict[str, Any]) -> Text:
+    from rich.text import Text
+
     if row["problem"]:
-        return "[red]incomplete[/red]"
+        return Text("incomplete", "red")
     if row["standin"]:
-        return "[yellow]stand-in[/yellow]"
+        return Text("stand-in", "yellow")
     if row["here"]:
-        return f"[green]{row['source']}[/green]"
-    return "no, gated" if row["gated"] else "no"
+        return Text(row["source"], "green")
+    return Text("no, gated" if row["gated"] else "no")
 
 
 def _count(parameters: int | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import typer
 
@@ -15,28 +16,14 @@ from planner_ft.support.terminal import show, terminal
 
 
 @command
-def gen_data(
-    level: str = "all",
-    out: Path | None = None,
-    seed: int = 0,
-    train: int | None = None,
-    validation: int | None = None,
-    test: int | None = None,
-    synthetic: int | None = None,
-    vocabulary: str = "usv",
-    source: Path | None = None,
-    overwrite: bool = False,
-    chat: bool = False,
-) -> None:
+def gen_data(**options: Any) -> None:
     """Make the training data."""
     from planner_ft.data.generate import GenerationSettings, generate
     from planner_ft.prompts.text import chat_messages
     from planner_ft.vocabulary import load_vocabulary
 
-    out = out or load_vocabulary(vocabulary).data
-    settings = GenerationSettings(
-        level, out, seed, train, validation, test, vocabulary, source, overwrite, chat, synthetic
-    )
+    out = options["out"] or load_vocabulary(options["vocabulary"]).data
+    settings = GenerationSettings(**options | {"out": out})
     with alone(out, "--out", "gen-data"), interruptible(lines=False) as progress:
         results = generate(settings, progress, chat_messages)
     for result in results:

@@ -16,42 +16,23 @@ MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "che
 
 
 @command
-def export(
-    context: typer.Context,
-    plan: Path | None = None,
-    format: list[str] | None = None,
-    origin: str | None = None,
-    log: Path | None = None,
-    draft: bool = False,
-    out: Path | None = None,
-    vocabulary: str = "usv",
-    overwrite: bool = False,
-    candidate: str | None = None,
-    merge: bool = False,
-    level: str = "mission",
-    adapter: str | None = None,
-    gguf: bool = False,
-    outtype: str = "f32",
-    checks: int = 8,
-    check_data: Path | None = None,
-) -> None:
+def export(context: typer.Context, plan: Path | None = None, **options: Any) -> None:
     """Hand a plan over, or write a candidate as a model for other servers."""
-    given = {name for name in (*PLAN_FLAGS, *MODEL_FLAGS, "vocabulary") if _is_given(context, name)}
+    every = (*PLAN_FLAGS, *MODEL_FLAGS, "vocabulary")
+    given = {name: options[name] for name in every if _is_given(context, name)}
     _check_kind(plan, given)
+    shared = {name: options[name] for name in ("out", "overwrite")}
     if plan is not None:
-        named = vocabulary if "vocabulary" in given else None
-        _export_plan(plan, tuple(format or ()), origin, out, log, draft, named, overwrite)
+        _export_plan(plan, {**given, **shared})
         return
-    from planner_ft.model_export.settings import ExportSettings
+    from planner_ft.model_export import ExportSettings
     from planner_ft.vocabulary.plans import check_level
 
-    if out is None:
+    if options["out"] is None:
         raise PlannerError("--out: a model needs a folder to be written to; give --out DIR")
-    matrices: Any = outtype  # checked by the settings
-    answers = (matrices, checks, check_data, vocabulary, overwrite)
-    assert candidate is not None
-    model = (candidate, out, check_level(level), merge, adapter, gguf)
-    _export_model(ExportSettings(*model, *answers))
+    model = {name: options[name] for name in (*MODEL_FLAGS, "vocabulary")} | shared
+    model |= {"level": check_level(options["level"]), "data": model.pop("check_data")}
+    _export_model(ExportSettings(**model))
 
 
 def _is_given(context: typer.Context, name: str) -> bool:
@@ -59,7 +40,7 @@ def _is_given(context: typer.Context, name: str) -> bool:
     return source is not None and source.name == "COMMANDLINE"
 
 
-def _check_kind(plan: Path | None, given: set[str]) -> None:
+def _check_kind(plan: Path | None, given: dict[str, Any]) -> None:
     """Raise PlannerError for flags of a model beside a plan, and the reverse, and for neither."""
     wrong = [name for name in (PLAN_FLAGS if plan is None else MODEL_FLAGS) if name in given][:1]
     flag = typed(wrong)
@@ -74,12 +55,12 @@ def _check_kind(plan: Path | None, given: set[str]) -> None:
         raise PlannerError(f"nothing to export: {ways}")
 
 
-def _export_plan(plan: Path, formats: tuple[str, ...], origin: str | None, *settings: Any) -> None:
-    """`settings` are those of PlanExportSettings after the origin, in their order."""
+def _export_plan(plan: Path, given: dict[str, Any]) -> None:
     from planner_ft.exporters import parse_origin, run
 
+    formats, origin = tuple(given.pop("format", None) or ()), given.pop("origin", None)
     place = parse_origin(origin) if origin is not None else None
-    done = run.export_plan(run.PlanExportSettings(plan, formats, place, *settings))
+    done = run.export_plan(run.PlanExportSettings(plan, formats, place, **given))
     for one in done:
         show(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
         for line in run.loss_lines(one.account):

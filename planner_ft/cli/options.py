@@ -1,13 +1,13 @@
-"""Options of the commands: help texts in help.toml, types and defaults in the signatures."""
+"""Options of the commands: help texts, and of long commands all but the arguments, in help.toml."""
 
 from __future__ import annotations
 
 import functools
 import inspect
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, TypeVar
+from typing import Annotated, Any, NamedTuple, TypeVar, get_args
 
 import typer
 
@@ -15,6 +15,8 @@ Command = TypeVar("Command", bound=Callable[..., None])
 ABOUT, ARGUMENTS = "about", "arguments"
 LEAST = {"seed": 0, "processes": 1}
 """The smallest values of numbers, checked before a command begins."""
+KINDS: dict[str, Any] = {"text": str | None, "texts": list[str] | None, "int": int | None}
+KINDS |= {"path": Path | None, "paths": list[Path] | None, "float": float | None}
 
 
 class Help(NamedTuple):
@@ -26,8 +28,9 @@ class Help(NamedTuple):
 
 
 def command(function: Command) -> Command:
-    """Give a command and its parameters their help from help.toml."""
-    parameters = list(inspect.signature(function, eval_str=True).parameters.values())
+    """Give a command its options and their help from help.toml."""
+    own = inspect.signature(function, eval_str=True).parameters.values()
+    parameters = [*own, *_options(_texts()["options"].get(function.__name__, ""))]
     help_of = helps(function.__name__)
     for index, item in enumerate(parameters):
         if item.name in help_of and not hasattr(item.annotation, "__metadata__"):
@@ -35,6 +38,20 @@ def command(function: Command) -> Command:
     set_parameters(function, parameters)
     function.__doc__ = _texts()[ABOUT].get(function.__name__, function.__doc__)
     return function
+
+
+def _options(text: str) -> Iterator[inspect.Parameter]:
+    """The options of a command in [options] of help.toml, None where they are not given."""
+    for item in text.split():
+        name, _, kind = item.partition(":")
+        kind, has_default, default = kind.partition("=")
+        annotation, value = (KINDS[kind], None) if kind else (bool, False)
+        if has_default:
+            annotation = get_args(annotation)[0]
+            value = annotation(default)
+        yield inspect.Parameter(
+            name, inspect.Parameter.KEYWORD_ONLY, default=value, annotation=annotation
+        )
 
 
 def set_parameters(function: Callable[..., None], parameters: list[inspect.Parameter]) -> None:

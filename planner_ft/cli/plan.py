@@ -28,40 +28,19 @@ PATIENCE = 3.0
 
 
 @command
-def plan(
-    command: str,
-    locate: list[str] | None = None,
-    locate_file: Path | None = None,
-    origin: str | None = None,
-    area: Path | None = None,
-    json: bool = False,
-    out: Path | None = None,
-    overwrite: bool = False,
-    mission_only: bool = False,
-    candidate: str = "embedded",
-    configuration: str | None = None,
-    vocabulary: str = "usv",
-    device: str = "auto",
-    quantization: str | None = None,
-    vehicle: Path | None = None,
-    mission_candidate: str | None = None,
-    task_candidate: str | None = None,
-    mission_adapter: Path | None = None,
-    task_adapter: Path | None = None,
-    mission_configuration: str | None = None,
-    task_configuration: str | None = None,
-) -> None:
+def plan(command: str, **options: Any) -> None:
     """Plan a command with both agents."""
-    options = locals()
     from planner_ft.document import write_document
     from planner_ft.document.tree import plan_tree
     from planner_ft.planning.planner import new_file
     from planner_ft.support.files import indented_json
 
+    out, json = options["out"], options["json"]
     if out is not None:
-        new_file(out, overwrite=overwrite)
+        new_file(out, overwrite=options["overwrite"])
     named = {name: options[name] for name in PLANNING}
-    document = _plan(command, vehicle, named, {name: options[name] for name in PLACES})
+    places = {name: options[name] for name in PLACES}
+    document = _plan(command, options["vehicle"], named, places)
     show(indented_json(document) if json else plan_tree(document), end="" if json else "\n")
     if out is not None:
         write_document(out, document)

@@ -18,34 +18,12 @@ HARVESTING = ("out", "overwrite")
 
 
 @command
-def review(
-    plans: list[Path] | None = None,
-    log: Path | None = None,
-    name: str | None = None,
-    vocabulary: str | None = None,
-    show: bool = False,
-    adopt: bool = False,
-    edit: list[str] | None = None,
-    origin: str | None = None,
-    approve: bool = False,
-    acknowledge: list[str] | None = None,
-    reject: str | None = None,
-    web: bool = False,
-    port: int | None = None,
-    host: str | None = None,
-    no_browser: bool = False,
-    harvest: bool = False,
-    out: Path | None = None,
-    overwrite: bool = False,
-    candidate: str | None = None,
-    device: str = "auto",
-) -> None:
+def review(**options: Any) -> None:
     """Read, edit, approve or reject a plan."""
-    options = locals()
-    if harvest:
+    if options["harvest"]:
         _refuse("--harvest", options, "web", "origin", *DECISIONS, *SERVING)
         _harvest(options)
-    elif web:
+    elif options["web"]:
         _refuse("--web", options, *DECISIONS, *HARVESTING)
         _serve(options)
     else:
@@ -93,6 +71,7 @@ def _review(options: dict[str, Any]) -> None:
 def _serve(options: dict[str, Any]) -> None:
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
+    from planner_ft.simulation.live import run_live
     from planner_ft.support.geodesy import parse_origin
 
     plans = options["plans"] or []
@@ -104,6 +83,7 @@ def _serve(options: dict[str, Any]) -> None:
     given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
     if options["origin"] is not None:
         given["origin"] = parse_origin(options["origin"])
+    given["runner"] = run_live
     serve(plan, WebSettings(planning=planning, open_browser=not options["no_browser"], **given))
 
 

@@ -1,17 +1,21 @@
-"""`plannerft train`."""
+"""`plannerft train`, `learning-curve` and `calibrate`."""
 
 from __future__ import annotations
 
 import inspect
 import shlex
 from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from planner_ft.cli.options import command, set_parameters
-from planner_ft.cli.progress import resume_command
-from planner_ft.support.terminal import terminal
+from planner_ft.cli.options import command, given, set_parameters
+from planner_ft.cli.progress import interruptible, resume_command, status
+from planner_ft.support.alone import alone
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import show, terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 from planner_ft.vocabulary.definition import DEFAULT
 
@@ -20,9 +24,7 @@ if TYPE_CHECKING:
 
 
 def with_settings(*without: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """An option for every training setting `without` some, so that flags, recipes and settings
-    cannot differ.
-    """
+    """An option for every training setting `without` some: flags and settings cannot differ."""
 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
         own, kind = inspect.signature(function).parameters.values(), inspect.Parameter.KEYWORD_ONLY
@@ -54,31 +56,15 @@ def _option(name: str) -> Any:
 
 @with_settings()
 @command
-def train(
-    level: str | None = None,
-    candidate: str | None = None,
-    recipe: str | None = None,
-    data_dir: str | None = None,
-    train_file: str | None = None,
-    validation_file: str | None = None,
-    corrections: str | None = None,
-    vocabulary: str | None = None,
-    output: str | None = None,
-    overwrite: bool = False,
-    resume: bool = False,
-    preview: bool = False,
-    preview_id: str | None = None,
-    **settings: Any,
-) -> None:
+def train(**options: Any) -> None:
     """Fine-tune a LoRA adapter on a 4-bit base."""
-
     from planner_ft.training.request import RUN_KEYS, build_request
 
-    options = locals()
-    names = {name: options[name] for name in RUN_KEYS}
-    request = build_request(names, settings, recipe=recipe, overwrite=overwrite, resume=resume)
-    console = terminal(soft_wrap=True)
-    if preview or preview_id:
+    names, settings = ({key: options[key] for key in keys} for keys in (RUN_KEYS, FIELDS))
+    rerun = {name: options[name] for name in ("recipe", "overwrite", "resume")}
+    request, console = build_request(names, settings, **rerun), terminal(soft_wrap=True)
+    preview_id = options["preview_id"]
+    if options["preview"] or preview_id:
         _preview(request, preview_id, console)
     else:
         _train(request, console)
@@ -140,3 +126,60 @@ def _preview(request: Any, sample_id: str | None, console: Console) -> None:
     console.print(preview_text(sample, tokenizer))
     trained = f"{sample.completion_length} of them trained (between ⟦ and ⟧)"
     console.print(f"{sample.id}: {sample.length} tokens, {trained}", markup=False)
+
+
+NAMED = ("level", "candidate", "vocabulary", "data_dir")
+
+
+@with_settings("seed", "max_samples", "keep_checkpoints")
+@command
+def learning_curve(**options: Any) -> None:
+    """Train on growing parts of the training set and benchmark each."""
+    from planner_ft.benchmark.curve.points import SAMPLES, write_curve
+    from planner_ft.benchmark.curve.units import begin, prepare, run_units
+    from planner_ft.report.pictures import write_figure
+    from planner_ft.training.request import build_request
+
+    o = SimpleNamespace(**options)
+    if o.resume and o.overwrite:
+        raise PlannerError("--overwrite and --resume exclude each other")
+    flags = given(options, *(name for name in FIELDS if name in options))
+    request = build_request(given(options, *NAMED), flags)
+    how = o.seeds, o.strength, o.data, o.limit
+    curve = prepare(request, o.out, _sizes(o.sizes), *how, flags)
+    with alone(o.out, "--out", "a learning curve"):
+        begin(curve, resume=o.resume, overwrite=o.overwrite)
+        with status(lambda: f"go on with: {resume_command()}") as state:
+            run_units(curve, state)
+            state(0, "tables and figure")
+            write_figure(write_curve(curve), SAMPLES[request.level], o.out)
+    show((o.out / "table.md").read_text(encoding="utf-8"))
+    figures = "learning-curve.png, learning-curve.svg"
+    show(f"{o.out}/: table.md, table.csv, learning_curve.json, {figures}")
+
+
+def _sizes(text: str | None) -> tuple[int, ...] | None:
+    try:
+        return None if text is None else tuple(int(part) for part in text.split(","))
+    except ValueError:
+        raise PlannerError(f"--sizes {text}: must be numbers such as 0,8,16") from None
+
+
+SHOWN = {"plan": "plans", "entry": "tasks or skills", "value": "values"}
+
+
+@command
+def calibrate(data: list[Path], **options: Any) -> None:
+    """Calibrate a candidate's confidence."""
+    from planner_ft.benchmark.calibrate import calibrate as run
+    from planner_ft.vocabulary.plans import check_level
+
+    checked, out = check_level(options.pop("level")), options.pop("out")
+    own = {f"{checked}_{name}": options.pop(name) for name in ("configuration", "adapter")}
+    with alone(out, "--out", "a calibration"), interruptible() as report:
+        path, manifest = run(checked, data, out, report, **options, **own)
+    for kind, found in manifest["held_out"].items():
+        right = f"{found['n'] - found['wrong']} of {found['n']} {SHOWN[kind]} right"
+        area = f"area under risk-coverage {found['aurc']:.4f}, random {found['aurc_random']:.4f}"
+        show(f"{right}; calibration error {found['ece']:.3f}; {area}")
+    show(f"{path}: how sure the {checked} agent is, of these weights")

@@ -140,22 +140,30 @@ class Clause(Drawing):
         kind: str,
         given: dict[str, Any],
         planned: Sequence[Planned],
-        _covered: set[int],
+        covered: set[int],
         effect: Effect,
     ) -> bool:
         limits = load_limits(self.vocabulary)
-        places = moving(planned)
+        places, titles = moving(planned), tuple[str, ...]()
+        if given.pop("scope", "mission") == "task":
+            own = self.own(planned, covered)
+            titles = tuple(planned[place].task.title for place in own)
+            if titles and any(
+                item.task.title in titles and place not in own for place, item in enumerate(planned)
+            ):
+                return False
+            places = [place for place in places if place in own]
         if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
             raise TemplateError(f"{kind} needs {' and '.join(slots(limits[kind].sentences[-1]))}")
         effect.about.add(kind)
-        effect.constraints.append(sentence(kind, given, limits))
+        effect.constraints.append(sentence(kind, given, limits, titles))
         text, rule = prompt_sentence(kind, given, limits), limits[kind]
         values = {name: given[value] for name, value in rule.parameters.items()}
         beside = ("filter", rule.filter, values) if rule.filter else None
         if kind == "return":
             places = [place for place in places if planned[place].intent.home]
-        elif kind == "duration":
-            return bool(moving(planned))
+        elif kind == "duration" and not titles:
+            places = []
         effect.sentences += [(place, text, beside) for place in places]
         return bool(moving(planned))
 

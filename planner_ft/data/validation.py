@@ -155,7 +155,7 @@ def object_problems(
     """
     kind, plan = _kind(value)
     if kind is None:
-        what = "a dataset record (expected), a prediction (output) and a plan (tasks or skill_sequence)"
+        what = "a dataset record (expected), a prediction (output), a plan (tasks, skill_sequence)"
         return None, level, [f"none of {what}"]
     problems = _identifier_problems(value, ("id",)) if kind == "prediction" else []
     if kind == "prediction" and isinstance(plan, str):

@@ -15,9 +15,10 @@ fast-forward and batches change not one bit.
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,8 @@ from planner_ft.vocabulary.plans import Level
 
 BLOCK = 8
 """Queries that are multiplied together. A pass over fewer is filled up to it."""
+SHARED, LONG = 64, 256
+"""Tokens that prompts must have in common to be copied, and of a prompt that is kept for it."""
 KEYS = 128
 """Keys that are multiplied together. Memory comes in multiples of it."""
 EMBEDDINGS, HEAD, NORM = "model.embed_tokens.weight", "lm_head.weight", "model.norm.weight"
@@ -201,6 +204,8 @@ class SmallModel:
     frequencies: Tensor
     sizes: Dimensions
     epsilon: float
+    last_prompt: list[tuple[Sequence[int], list[Tensor]]] = field(default_factory=list)
+    """At most one: the ids of a long prompt, and keys and values of each layer for it."""
 
     @property
     def context(self) -> int:
@@ -302,12 +307,26 @@ class SmallPasses:
         if len(feeds) > 1 and max(counts) <= BLOCK:
             logits = self._run(_Grid.of_rows(starts, max(counts)), feeds, wanted)
         else:  # prompts one after the other, so that none is filled up to the longest
-            parts = [
-                self._run(_Grid.of_row(row, start, len(feed)), [feed], [count])
-                for row, (start, feed, count) in enumerate(zip(starts, feeds, wanted, strict=True))
-            ]
-            logits = torch.cat(parts)
+            parts = zip(range(len(feeds)), starts, feeds, wanted, strict=True)
+            logits = torch.cat([self._run_row(*part) for part in parts])
         self.lengths = ends
+        return logits
+
+    def _run_row(self, row: int, start: int, feed: Sequence[int], wanted: int) -> Tensor:
+        """The wanted logits of one row. What a long prompt has in common with the one before it
+        (the vocabulary, most of it) is not computed again.
+        """
+        known, kept = 0, self.model.last_prompt
+        if not start and kept:
+            same = zip(kept[0][0], feed[:-wanted], strict=False)
+            known = sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], same))
+            known *= known >= SHARED
+            for memory, old in zip(self.memory, kept[0][1], strict=True):
+                memory[:, row, :known] = old[:, :known]
+        grid = _Grid.of_row(row, start + known, len(feed) - known)
+        logits = self._run(grid, [feed[known:]], [wanted])
+        if not start and len(feed) > LONG and 2 * known < len(feed):
+            kept[:] = [(feed, [memory[:, row, : len(feed)].clone() for memory in self.memory])]
         return logits
 
     def forget(self, counts: Sequence[int]) -> None:

@@ -40,7 +40,7 @@ class SequenceState:
     follow, then what `lookup` finds likely. Choices are the most probable tokens, or drawn by
     `sampler`. `diverged` is the place of the first token that the model without the constraint
     would not have chosen. `scores` are those of `ids`, None where no pass has decided a token, and
-    `decided` is how many tokens the last one did. Where `enough(ids)` holds, the answer is left as it is.
+    `decided` is how many tokens the last one did. Where `enough(ids)` holds, the answer stays.
     """
 
     def __init__(

@@ -65,7 +65,7 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "format": FORMAT,
         "version": VERSION,
         "command": planned.command,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        "vocabulary": vocabulary.named,
         "vehicle": (vehicle or load_vehicle(None, vocabulary)).as_json(),
         **({"origin": asdict(planned.origin)} if planned.origin else {}),
         **({"structures": _structures(planned.chart)} if planned.chart else {}),

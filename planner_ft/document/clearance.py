@@ -19,19 +19,25 @@ from planner_ft.document.limits import limits_of
 from planner_ft.document.ontology import is_thing, named_places
 from planner_ft.document.track import Leg, Pen, Point, TaskEntry, place_of
 from planner_ft.document.vehicle import STAND_OFF
+from planner_ft.facts.geometry import offset
 from planner_ft.facts.places import read_bearings
 from planner_ft.planning.frame import frame_of
+from planner_ft.planning.passes import Face, face_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value
 
 ROUND, OVER = ("orbit", "square"), ("lawnmower", "line")
 """Patterns of tasks that go round their place, and of those that go over it."""
+FACING = ("sweep", "pass")
+"""Patterns of tasks that look at the structure that the vehicle has gone to."""
 SAME = 0.6
 """Metres within which a waypoint is a structure itself."""
 MARGIN = 0.5
 """Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
 CORNERS = 8
 """Waypoints of a full way round a structure."""
+MOST_WALLS = 60
+"""Circles by which a face is kept clear of."""
 MOST_ROUNDS = 30
 MOVING = ("go", "arc")
 
@@ -65,7 +71,7 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
     """The known structures of a plan, each with the stand-off that is stated or the vehicle's."""
     tasks = document["tasks"]
     own = (document.get("vehicle") or {}).get("stand_off", STAND_OFF)
-    least, named = 0.0, dict[Point, str]()
+    least, named, last = 0.0, dict[Point, str](), vocabulary.home
     kept: dict[Point, float] = {}
     for limit in limits_of(document, vocabulary):
         if limit["kind"] == "clearance":
@@ -78,6 +84,9 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
     stated: dict[Point, list[float]] = {}
     for task in tasks:
         known, place = vocabulary.task.get(task["title"]), place_of(task, vocabulary)
+        if known is not None and known.pattern in FACING and last != vocabulary.home:
+            named.setdefault(last, "")
+        last = place or last
         if known is None or place is None:
             continue
         if known.docks or known.pattern in OVER:
@@ -141,17 +150,29 @@ def cleared(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     pen = Pen(vocabulary, document.get("vehicle") or {})
     allowed = fence(document, vocabulary)
     done = []
-    for task, following in itertools.zip_longest(tasks, tasks[1:]):
+    for before, task, following in zip([None, *tasks], tasks, [*tasks[1:], None], strict=False):
         steps = task.get("skill_sequence")
         if steps is None or task.get("stale") or _is_close(task, vocabulary):
             pen.draw(task)
             done.append(task)
             continue
         reached = _circle_of(following, vocabulary) if following else None
-        done.append(
-            _Steps(task, known, reached or _circle_of(task, vocabulary), pen).cleared(allowed)
-        )
+        faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
+        walls = [wall for face in faces if face for wall in _walls(face)]
+        circle = reached or _circle_of(task, vocabulary)
+        made = _Steps(task, [*known, *walls], circle, pen, faces[1])
+        done.append(made.cleared(allowed))
     return done
+
+
+def _walls(face: Face) -> list[Structure]:
+    """A face that the plan runs along: the way to its pass and from it leads round its ends."""
+    (a, b), (c, d) = face.ends
+    count = math.ceil(math.dist(*face.ends) / max(face.distance, MARGIN))
+    parts = [number / count for number in range(count + 1)] if 0 < count <= MOST_WALLS else []
+    return [
+        Structure("", (a + part * (c - a), b + part * (d - b)), face.distance) for part in parts
+    ]
 
 
 Allowed = Callable[[Point, Point], bool]
@@ -188,8 +209,9 @@ class _Steps:
         known: Sequence[Structure],
         circle: tuple[Point, float] | None,
         pen: Pen,
+        face: Face | None,
     ) -> None:
-        self.task, self.known, self.circle, self.pen = task, known, circle, pen
+        self.task, self.known, self.circle, self.pen, self.face = task, known, circle, pen, face
         self.steps: list[dict[str, Any]] = []
         self.marks: list[dict[str, Any]] = []
 
@@ -232,7 +254,9 @@ class _Steps:
         return steps, marks
 
     def _to_standoff(self, step: dict[str, Any]) -> dict[str, Any]:
-        """The step; one that goes to a structure itself ends on its stand-off, on the way in."""
+        """The step; one that goes to a structure itself ends on its stand-off, on the way in or
+        before the face that is run along next.
+        """
         goal, here = self._goal(step), self.pen.here
         for structure in self.known if goal else ():
             center = structure.position
@@ -241,6 +265,8 @@ class _Steps:
             radius = structure.standoff
             if self.circle and math.dist(self.circle[0], center) <= SAME:
                 radius = self.circle[1]
+            if self.face and math.dist(self.face.middle, center) <= SAME:
+                return self._with_goal(step, offset(center, self.face.side, radius))
             away = math.dist(here, center) if here else 0.0
             x, y = (
                 ((here[0] - center[0]) / away, (here[1] - center[1]) / away)

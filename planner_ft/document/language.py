@@ -29,11 +29,15 @@ NO = re.compile(r"^no\W+", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Ask:
-    """Words that ask for one of `tasks`; with `sends`, the clause also names what is sent."""
+    """Words that ask for one of `tasks`; with `sends`, the clause also names what is sent.
+
+    `named`: these words, and those that name the task where it is ruled out: "skip the report".
+    """
 
     said: re.Pattern[str]
     tasks: frozenset[str]
     sends: bool
+    named: re.Pattern[str]
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,12 @@ def language(vocabulary: Vocabulary) -> Language:
     if problems:
         raise PlannerError(f"{vocabulary.name}{ONTOLOGY}: " + "; ".join(problems))
     asks = (
-        Ask(pattern(entry["words"]), frozenset(entry["tasks"]), entry.get("sends", False))
+        Ask(
+            pattern(entry["words"]),
+            frozenset(entry["tasks"]),
+            entry.get("sends", False),
+            pattern([*entry["words"], *entry.get("nouns", ())]),
+        )
         for entry in own.get("ask", ())
     )
     words = {name: pattern(entry["words"]) for name, entry in english.items()}
@@ -109,6 +118,8 @@ def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     for entry in asks if isinstance(asks, list) else [asks]:
         if not isinstance(entry, dict) or not all(_are_words(entry.get(key)) for key in ASK):
             yield "every [[ask]] needs the lists words and tasks"
+        elif "nouns" in entry and not _are_words(entry["nouns"]):
+            yield "[[ask]]: nouns must be a list of words"
         else:
             unknown = [title for title in entry["tasks"] if title not in vocabulary.task]
             yield from (f"[[ask]] names {title!r}, which is no task" for title in unknown)
@@ -170,7 +181,7 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
     for start, end in zip(starts, [*(end for end, _next in ends), len(command)], strict=True):
         text = command[start:end]
         if text.strip():
-            exclusion = words["exclusion"].search(text)
+            exclusion = None if words["reminder"].search(text) else words["exclusion"].search(text)
             excluded = start + exclusion.start() if exclusion else None
             behind = command[end : end + 24].lstrip(" ,.;:!?-")
             corrected = any(map(words["correction"].match, (behind, NO.sub("", behind))))

@@ -12,7 +12,7 @@ from typing import Any
 from planner_ft.document.language import read_clauses
 from planner_ft.facts import WAYPOINT, Facts, Span, read
 from planner_ft.planning.frame import frame_of
-from planner_ft.planning.limits import limits_in
+from planner_ft.planning.limits import holds_for, limits_in
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.limits import Limit, Limits, load_limits
 
@@ -25,8 +25,8 @@ def limits_of(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[
     """The limits of a plan document as its key `limits` has them, without the words."""
     known = load_limits(vocabulary)
     found = limits_in(list(document.get("constraints", ())), known)
-    everywhere = list(range(1, len(document["tasks"]) + 1))
-    return [_entry(limit, known, everywhere) for limit in found]
+    tasks = document["tasks"]
+    return [_entry(limit, known, tasks) for limit in found]
 
 
 def with_words(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
@@ -42,9 +42,12 @@ def with_words(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict
     return found
 
 
-def _entry(limit: Limit, known: Limits, tasks: list[int]) -> dict[str, Any]:
+def _entry(limit: Limit, known: Limits, tasks: list[dict[str, Any]]) -> dict[str, Any]:
     kind = known[limit.kind]
-    entry = {"kind": limit.kind, "values": limit.values, "text": limit.text, "tasks": tasks}
+    held = [
+        place for place, task in enumerate(tasks, start=1) if holds_for(limit, task["title"], tasks)
+    ]
+    entry = {"kind": limit.kind, "values": limit.values, "text": limit.text, "tasks": held}
     entry |= {"filter": kind.filter} if kind.filter else {}
     place = "position" in limit.values or "object" not in limit.values
     if limit.kind == "return":
@@ -92,11 +95,12 @@ def carried(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     if not limits:
         return tasks
     done = []
-    for task in tasks:
+    for place, task in enumerate(tasks, start=1):
+        own_limits = [limit for limit in limits if place in limit["tasks"]]
         steps, marks = copy.deepcopy(task.get("skill_sequence")), list(task.get("added", ()))
         for number, step in enumerate(steps or ()):
             filters = {own["name"] for own in step["filter_skills"]}
-            for limit in limits if not task.get("stale") else ():
+            for limit in own_limits if not task.get("stale") else ():
                 if moves(step, vocabulary) or limit["filter"] in filters:
                     marks += _filter(number, step, limit, known, vocabulary)
         entry = {**task, "skill_sequence": steps}

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
+from planner_ft.document.positions import positions_of, rows_of
 from planner_ft.facts import Position, Span
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
@@ -102,14 +103,26 @@ def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]
 
 
 def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position]]:
-    """(words, position) of things beside certain positions: no waypoints and other places."""
+    """(words, position) of things beside certain positions: no waypoints and other places. "The
+    cages at" names all positions of the row behind it.
+    """
     spoken = language(vocabulary)
     named = sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])
+    several = dict[int, str]()
+    for row in rows_of(text, positions_of(text)):
+        words = _words_before(text, row[0].start, named)
+        several |= {place.start: words for place in row[1:] if words.endswith("s")}
     for place in read_positions(text):
-        start = _before(text, place.start, named)
-        words = next((text[one:end] for one, end in reversed(named) if one == start), "")
-        if place.certain and words and is_thing(words, vocabulary):
+        words = _words_before(text, place.start, named) if place.certain else ""
+        words = words or several.pop(place.start, "")
+        if words and is_thing(words, vocabulary):
             yield words, place
+
+
+def _words_before(text: str, place: int, named: list[Span]) -> str:
+    """The name that stands before coordinates; empty without one."""
+    start = _before(text, place, named)
+    return next((text[one:end] for one, end in reversed(named) if one == start), "")
 
 
 def is_thing(words: str, vocabulary: Vocabulary) -> bool:

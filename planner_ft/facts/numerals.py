@@ -271,7 +271,7 @@ class Row:
             yield value, index
 
     def _is_part(self, index: int) -> bool:
-        """Whether an ordinal stands for a part of a unit: "tenth of an hour", "eighth of a turn"."""
+        """Whether an ordinal is a part of a unit: "tenth of an hour", "eighth of a turn"."""
         word, of, article = (self.word(index + place) for place in range(3))
         return word in ORDINALS and of == "of" and article in ("a", "an", "the")
 

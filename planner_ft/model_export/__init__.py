@@ -5,7 +5,6 @@ precision, and a GGUF file.
 `gguf_tokens` and `gguf_file` write the model as llama.cpp reads it.
 """
 
-from planner_ft.model_export.run import Exported, export
-from planner_ft.model_export.settings import ExportSettings
+from planner_ft.model_export.run import Exported, ExportSettings, export
 
 __all__ = ["ExportSettings", "Exported", "export"]

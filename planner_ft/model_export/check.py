@@ -113,9 +113,7 @@ class Answers:
     def agreement(
         self, expected: Sequence[tuple[int, ...]], logits: Sequence[Any], model: Any
     ) -> Agreement:
-        """Compare a model with another's answers and logits. Raises PlannerError when one
-        differs.
-        """
+        """Compare with another model's answers and logits. Raises PlannerError when one differs."""
         pairs = zip(logits, self.logits(model, expected), strict=True)
         largest = max(float((one - other).abs().max()) for one, other in pairs)
         same = sum(one == two for one, two in zip(expected, self.of(model), strict=True))

@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from planner_ft.candidates.location import read_config, weight_files
 from planner_ft.candidates.registry import Dimensions
 from planner_ft.model_export.gguf_tokens import CONVERTER, TokenTable
-from planner_ft.model_export.settings import OutType
 from planner_ft.support.errors import PlannerError
 
 if TYPE_CHECKING:
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
 
     Array = np.ndarray[Any, Any]
 
+OutType = Literal["f32", "f16"]
 ARCHITECTURES = {"LlamaForCausalLM": "llama", "Qwen2ForCausalLM": "qwen2"}
 NOT_HERE = f"is not written as GGUF here; leave out --gguf and {CONVERTER}"
 PLAIN_ROPE = ("default", "llama3")

@@ -63,9 +63,7 @@ class TokenTable:
 
 
 def token_table(path: Path, size: int) -> TokenTable:
-    """The table of a tokenizer.json for a model with `size` tokens. Raises PlannerError when it is
-    no byte-level BPE.
-    """
+    """The table for a model of `size` tokens. Raises PlannerError for no byte-level BPE."""
     settings = read_json(path)
     model, step = settings.get("model", {}), settings.get("pre_tokenizer") or {}
     steps = list(step["pretokenizers"]) if step.get("type") == "Sequence" else [step]
@@ -93,9 +91,8 @@ def token_table(path: Path, size: int) -> TokenTable:
 
 def check_ids(path: Path, table: TokenTable, texts: Iterable[str]) -> int:
     """The number of texts, all with the same ids in both tokenizers. Raises PlannerError, with the
-    first text that differs.
-
-    llama.cpp's way is computed with the tokenizers library: the same merges after the other split.
+    first text that differs. llama.cpp's way is computed with the tokenizers library: the same
+    merges after the other split.
     """
     from tokenizers import AddedToken, Regex, Tokenizer
     from tokenizers.pre_tokenizers import ByteLevel, Sequence, Split

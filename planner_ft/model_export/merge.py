@@ -57,7 +57,6 @@ def merged(model: Any) -> Any:
 
 def save_full(model: Any, candidate: Candidate, learned: Vocabulary | None, folder: Path) -> None:
     """Write weights, tokenizer, chat template and generation settings as a transformers folder.
-
     `learned` is the vocabulary that the model knows without a prompt; config.json names it, so that
     the benchmark does not put it into prompts.
     """

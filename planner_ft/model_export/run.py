@@ -7,29 +7,69 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
-from planner_ft.candidates import Candidate, adapters, resolve_candidate
+from planner_ft.candidates import adapters, resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer, require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.model_export import check as checks
-from planner_ft.model_export.gguf_file import check_architecture, import_gguf, write_gguf
+from planner_ft.model_export.gguf_file import OutType, check_architecture, import_gguf, write_gguf
 from planner_ft.model_export.gguf_tokens import check_ids, token_table
 from planner_ft.model_export.merge import load_full, merged, save_full
-from planner_ft.model_export.settings import ExportSettings
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, sha256_file, sha256_tree, write_json, write_text
+from planner_ft.support.files import read_json, sha256_file, write_json, write_text, writing
 from planner_ft.support.manifest import build_manifest
-from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import LEVELS, Level, check_level
 
 MANIFEST = "manifest.json"
 KIND = "export"
 AGENTS = {"mission": "Mission Agent", "task": "Task Agent"}
 Say = Callable[[str], None]
 Record = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class ExportSettings:
+    """An export of `candidate` into the folder `out`. `merge` folds the adapter of `level` in:
+    `adapter` ("DIR" or "LEVEL=DIR"), or the candidate's own. `gguf` writes a GGUF file, too, its
+    matrices in `outtype`. `checks` commands are answered before and after: those of `data`, or of
+    the level's validation set.
+    """
+
+    candidate: str
+    out: Path
+    level: Level = "mission"
+    merge: bool = False
+    adapter: str | None = None
+    gguf: bool = False
+    outtype: OutType = "f32"
+    checks: int = 8
+    data: Path | None = None
+    vocabulary: str = "usv"
+    overwrite: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError that lists every setting that cannot be used."""
+        problems = []
+        if self.adapter is not None and not self.merge:
+            problems.append("--adapter: an adapter is exported by folding it in; give --merge, too")
+        if self.outtype not in get_args(OutType):
+            problems.append(f"--outtype {self.outtype}: must be {' or '.join(get_args(OutType))}")
+        if not 1 <= self.checks <= 10000:
+            problems.append(f"--checks {self.checks}: must be between 1 and 10000")
+        if problems:
+            raise PlannerError("; ".join(problems))
+
+    @property
+    def named_adapter(self) -> tuple[Level, Path | None]:
+        """The level whose agent is exported, and the adapter's folder where one is named."""
+        level, separator, folder = (self.adapter or "").partition("=")
+        if separator and level in LEVELS:
+            return check_level(level), Path(folder)
+        return self.level, Path(self.adapter) if self.adapter else None
 
 
 @dataclass(frozen=True)
@@ -42,24 +82,18 @@ class Exported:
 
 
 def export(settings: ExportSettings, say: Say = lambda _line: None) -> Exported:
-    """Write a candidate, with its adapter folded in, as a model folder and a GGUF file; nothing is
-    written when its answers change. Raises PlannerError.
-    """
+    """Write a model folder and a GGUF file, nothing when answers change. Raises PlannerError."""
     out = settings.out.resolve()
     with alone(settings.out, "--out", "an export"):
         work = _Work(settings, say)
-        try:
-            with staging(out) as staged, staging(out) as former:
-                check = work.write_model(staged)
-                gguf = work.write_gguf(staged) if settings.gguf else None
-                work.write_record(staged, check, gguf)
-                if out.exists():  # an earlier export is removed only now
-                    out.replace(former / out.name)
-                staged.replace(out)
-        except OSError as error:
-            why = f"cannot be written ({error.strerror or error})"
-            way = "choose another folder or free some space"
-            raise PlannerError(f"{settings.out}: {why}; {way}") from error
+        way = "choose another folder or free some space"
+        with writing(settings.out, way), staging(out) as staged, staging(out) as former:
+            check = work.write_model(staged)
+            gguf = work.write_gguf(staged) if settings.gguf else None
+            work.write_record(staged, check, gguf)
+            if out.exists():  # an earlier export is removed only now
+                out.replace(former / out.name)
+            staged.replace(out)
     return Exported(settings.out, settings.out / gguf["file"] if gguf else None, check)
 
 
@@ -74,14 +108,17 @@ class _Work:
         folder = require_folder(self.candidate)
         self.adapter = None
         if settings.merge:
-            self.adapter = named or _own_adapter(self.candidate, self.level, self.vocabulary)
+            own = self.candidate, self.level
+            found = named or adapters.find_adapter(*own, self.vocabulary)
+            self.adapter = found or adapters.adapter_folder(*own)
             known: Record = {"level": self.level, "vocabulary": self.vocabulary}
             adapters.check_adapter(self.adapter, self.candidate, **known)
         if settings.gguf:
             import_gguf()
             check_architecture(folder)
         _check_out(settings)
-        self.with_vocabulary = not (self.adapter or self.candidate.knows(self.vocabulary))
+        known_so = self.candidate, self.vocabulary, self.adapter
+        self.with_vocabulary = adapters.prompt_has_vocabulary(*known_so)
         counted = settings.checks, settings.data
         self.records = checks.check_records(self.level, self.vocabulary, *counted)
 
@@ -128,7 +165,7 @@ class _Work:
         if self.adapter:
             file = self.adapter / MANIFEST
             trained = read_json(file).get("configuration", {}) if file.is_file() else {}
-            digest = sha256_tree(self.adapter, (adapters.WEIGHTS, adapters.CONFIG))
+            digest = adapters.adapter_sha256(self.adapter)
             adapter = {"sha256": digest, "trained_on": trained.get("quantization")}
         keys = ("checks", "merge", "gguf", "outtype")
         manifest = build_manifest(
@@ -146,11 +183,6 @@ class _Work:
         )
         write_json(folder / MANIFEST, manifest)
         write_text(folder / "README.md", model_card(manifest))
-
-
-def _own_adapter(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> Path:
-    found = adapters.find_adapter(candidate, level, vocabulary)
-    return found or adapters.adapter_folder(candidate, level)
 
 
 def _check_out(settings: ExportSettings) -> None:

@@ -1,13 +1,13 @@
 """Limits between the two agents: into every task prompt that lacks them, and not to the Task Agent.
 
-A limit of the mission holds for all of its tasks. The Task Agent is not asked for it: planning
-carries it into the steps as a filter (planner_ft.document.limits).
+A limit holds for all tasks of the mission or for those that it names. The Task Agent is not asked
+for it: planning carries it into the steps as a filter (planner_ft.document.limits).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from planner_ft.vocabulary import Vocabulary
@@ -56,10 +56,23 @@ def with_limits(
     tasks = []
     for task, texts in zip(plan["tasks"], prompts, strict=True):
         own = limits_in(texts, limits)
-        missing = [limit for limit in stated if not any(_same(limit, one) for one in own)]
+        missing = [
+            limit
+            for limit in stated
+            if holds_for(limit, task["title"], plan["tasks"])
+            and not any(_same(limit, one) for one in own)
+        ]
         added = [prompt_sentence(limit.kind, limit.values, limits) for limit in missing]
         tasks.append({**task, "task_prompt": " ".join([*texts, *added]) or task["task_prompt"]})
     return {**plan, "tasks": tasks, "constraints": constraints}
+
+
+def holds_for(limit: Limit, title: str, tasks: Iterable[Mapping[str, Any]]) -> bool:
+    """Whether a limit of a plan with these tasks is one of a task of this title. A limit of tasks
+    that the plan does not have holds for all.
+    """
+    planned = {task["title"] for task in tasks}
+    return limit.holds_for(title) or not planned & {*limit.titles}
 
 
 def without_limits(prompt: str, vocabulary: Vocabulary) -> str:

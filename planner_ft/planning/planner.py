@@ -22,6 +22,7 @@ from planner_ft.planning.locations import (
     open_places,
     resolve,
 )
+from planner_ft.planning.passes import with_pass
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
 from planner_ft.support.errors import PlannerError
@@ -110,6 +111,14 @@ class Planner:
             filled = resolve(mission.plan, known, self.vocabulary)
             mission = replace(mission, notes=(*mission.notes, *unused))
             found = charted(chart or {}, open_places(filled, self.vocabulary))
+            # A place that the plan does not need is a point of the chart all the same.
+            unknown = self.vocabulary.unresolved
+            others = {
+                name: at
+                for name, at in (locations or {}).items()
+                if name not in known and tuple(at) != unknown
+            }
+            chart = {**others, **(chart or {})}
             filled = resolve(filled, found, self.vocabulary)
             located = {name: list(at) for name, at in {**known, **found}.items()}
             places = open_places(filled, self.vocabulary)
@@ -144,11 +153,11 @@ class Planner:
         answer = self.agents.ask("task", {**record, "prompt": prompt})
         if answer.plan is None:
             return answer
-        steps = answer.plan["skill_sequence"]
+        steps, ends = with_pass(filled, answer.plan["skill_sequence"], self.vocabulary)
         steps, added = with_essentials(filled, steps, self.vocabulary)
         defaults = missing_defaults(task, self.vocabulary)
         plan = {"skill_sequence": steps}
-        return replace(answer, plan=plan, defaults=defaults, added=tuple(added))
+        return replace(answer, plan=plan, defaults=defaults, added=(*ends, *added))
 
     def __enter__(self) -> Planner:
         return self

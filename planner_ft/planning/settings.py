@@ -7,7 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter, find_adapter
+from planner_ft.candidates.adapters import (
+    adapter_sha256,
+    check_adapter,
+    find_adapter,
+    prompt_has_vocabulary,
+)
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
@@ -15,7 +20,6 @@ from planner_ft.confidence.calibration import AGENT, calibration_file
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, parse_configuration
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import sha256_tree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level
 
@@ -77,7 +81,7 @@ class Agent:
             "quantization": self.quantization,
             "weights_sha256": weights_sha256(folder) if folder else None,
             "adapter": str(self.adapter) if self.adapter else None,
-            "adapter_sha256": self.adapter and sha256_tree(self.adapter, (WEIGHTS, CONFIG)),
+            "adapter_sha256": self.adapter and adapter_sha256(self.adapter),
             "prompt_format": PROMPT_VERSION,
             "vocabulary_in_the_prompt": self.with_vocabulary,
         }
@@ -128,8 +132,6 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
             f" here; train one with `plannerft train --level {level} --candidate {candidate.name}`,"
             f" name one with --{level}-adapter, or give --configuration {without}"
         )
-    # A fine-tuned model has learned the vocabulary, and so has one that was pretrained on it.
-    with_vocabulary = not chosen.adapter and not candidate.knows(vocabulary)
-    default = candidate.adapter_defaults(level, vocabulary).quantization
-    quantization = settings.quantization or default or "nf4"
+    with_vocabulary = prompt_has_vocabulary(candidate, vocabulary, adapter)
+    quantization = candidate.stored_as(level, vocabulary, settings.quantization)
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)

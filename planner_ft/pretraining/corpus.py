@@ -21,6 +21,7 @@ from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.data.unfamiliar import with_unfamiliar_words
+from planner_ft.pretraining.packs import IGNORE, Pack, arrays, draw_packs, packs_in
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
 from planner_ft.support.errors import PlannerError
@@ -31,7 +32,6 @@ from planner_ft.vocabulary.plans import Level, without_working
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
 
-IGNORE = -100
 HANDED_DOWN, HANDED_DOWN_SEED = 0.3, 50_000_000
 """Share of the task inputs that come from missions, and the seed offset of those missions."""
 DRILL_SEED = 70_000_000
@@ -78,7 +78,8 @@ class Mixture:
     `missions` are mission samples among all, `vehicles` those of the vehicles in `folder` (a folder
     with a definition and templates for each) among the missions. `unfamiliar` are samples of our
     vehicle whose target gets a name that the generators do not know, where it has a word that can
-    be changed; `drills` come on top: sums alone, the beginnings of task answers, per sample.
+    be changed; `drills` come on top: sums alone, the beginnings of task answers, per sample; so do
+    `packs`, groups of samples with the vocabulary in their prompt, `own` of them of our vehicle.
     """
 
     missions: float = 0.6
@@ -86,6 +87,8 @@ class Mixture:
     unfamiliar: float = 0.0
     vehicles: float = 0.0
     folder: Path | None = None
+    packs: float = 0.0
+    own: float = 0.4
 
 
 def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Drawn]:
@@ -207,19 +210,40 @@ def encode_shard(
             ids.append(drill.ids[: drill.worked].astype(np.uint16))
             prompts.append(drill.prompt)
             drilled += 1
+    packs = _packs(tokenizer, vocabulary, seed, round(count * mixture.packs), mixture, longest)
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
         at = np.array(prompts, dtype=np.int32)
-        np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=at)
+        np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=at, **arrays(packs))
     samples, tokens = len(ids) - drilled, int(lengths.sum())
-    return {"samples": samples, "tokens": tokens, "left_out": left_out, "drills": drilled}
+    tokens += sum(len(part) for pack in packs for part, _prompt in pack)
+    counts = {"samples": samples, "tokens": tokens, "left_out": left_out, "drills": drilled}
+    return {**counts, "packs": len(packs)}
 
 
-def load_shard(path: Path) -> list[Sample]:
-    """The samples of a shard as (ids, prompt length)."""
+def _packs(
+    tokenizer: PreTrainedTokenizerBase,
+    vocabulary: Vocabulary,
+    seed: int,
+    count: int,
+    mixture: Mixture,
+    longest: int,
+) -> list[Pack]:
+    """Packs of our vehicle and of the others in their shares."""
+    if not count:
+        return []
+    others = vehicles_in(mixture.folder) if mixture.folder else ()
+    share = (1 - mixture.own) / max(1, len(others))
+    weights = [mixture.own, *(share for _ in others)]
+    drawn = draw_packs([vocabulary, *others], weights, tokenizer, seed, longest)
+    return list(itertools.islice(drawn, count))
+
+
+def load_shard(path: Path) -> tuple[list[Sample], list[Pack]]:
+    """The samples of a shard as (ids, prompt length), and its packs."""
     with np.load(path) as data:
         parts = np.split(data["ids"].astype(np.int64), np.cumsum(data["lengths"])[:-1])
-        return list(zip(parts, map(int, data["prompts"]), strict=True))
+        return list(zip(parts, map(int, data["prompts"]), strict=True)), packs_in(data)
 
 
 def batched(samples: list[Sample], batch_tokens: int, pad: int, seed: int) -> list[Rows]:

@@ -13,7 +13,7 @@ import torch
 from torch import Tensor
 
 CAUSAL = "planner_ft_causal"
-LONGEST = 1024
+LONGEST = 2048
 """Positions in a row at most."""
 ROWS = 256
 """Rows of logits in a piece."""
@@ -82,8 +82,93 @@ def _backward(
 torch.library.register_autograd("planner_ft::causal_attention", _backward, setup_context=_remember)
 
 
+@torch.library.custom_op("planner_ft::shared_attention", mutates_args=())
+def shared_attention(
+    query: Tensor, key: Tensor, value: Tensor, parts: Tensor, scale: float
+) -> Tensor:
+    """Causal attention within each part of a row and to all of the part that it shares.
+
+    Shapes: (1, heads, length, width) each; `parts` (n, 4) as in `packs.Row`. Gives (heads, length,
+    width).
+    """
+    query, key, value = (part[0] for part in (query, key, value))
+    found = torch.empty_like(value)
+    for start, end, *shown in parts.tolist():
+        weights = _weights(query[:, start:end], key, start, end, shown, scale)
+        found[:, start:end] = torch.bmm(weights, _joined(value, start, end, shown))
+    return found
+
+
+@shared_attention.register_fake
+def _(query: Tensor, key: Tensor, value: Tensor, parts: Tensor, scale: float) -> Tensor:
+    return torch.empty_like(value[0])
+
+
+@torch.library.custom_op("planner_ft::shared_attention_backward", mutates_args=())
+def shared_attention_backward(
+    gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, parts: Tensor, scale: float
+) -> tuple[Tensor, Tensor, Tensor]:
+    """Gradients of query, key and value, each (heads, length, width); weights are made again."""
+    query, key, value = (part[0] for part in (query, key, value))
+    of_query = torch.empty_like(query)
+    of_key, of_value = (torch.zeros_like(part, dtype=torch.float32) for part in (key, value))
+    for start, end, *shown in parts.tolist():
+        weights = _weights(query[:, start:end], key, start, end, shown, scale)
+        own = gradient[:, start:end]
+        of_weights = torch.bmm(own, _joined(value, start, end, shown).transpose(1, 2))
+        of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
+        of_query[:, start:end] = torch.bmm(of_scores, _joined(key, start, end, shown)) * scale
+        for total, left, right in (
+            (of_key, of_scores, query[:, start:end] * scale),
+            (of_value, weights, own),
+        ):
+            found, common = torch.bmm(left.transpose(1, 2), right), shown[1] - shown[0]
+            total[:, shown[0] : shown[1]] += found[:, :common]
+            total[:, start:end] += found[:, common:]
+    return of_query, of_key.to(key.dtype), of_value.to(value.dtype)
+
+
+@shared_attention_backward.register_fake
+def _(
+    gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, parts: Tensor, scale: float
+) -> tuple[Tensor, Tensor, Tensor]:
+    return torch.empty_like(query[0]), torch.empty_like(key[0]), torch.empty_like(value[0])
+
+
+def _joined(whole: Tensor, start: int, end: int, shown: list[int]) -> Tensor:
+    own = whole[:, start:end]
+    return torch.cat([whole[:, shown[0] : shown[1]], own], 1) if shown[1] > shown[0] else own
+
+
+def _weights(
+    query: Tensor, key: Tensor, start: int, end: int, shown: list[int], scale: float
+) -> Tensor:
+    """Attention weights of a part to what it shares and to itself."""
+    scores = torch.bmm(query * scale, _joined(key, start, end, shown).transpose(1, 2))
+    own = scores[:, :, shown[1] - shown[0] :]
+    own.add_(_BIAS[: end - start, : end - start].to(scores.dtype))
+    return torch.softmax(scores, -1)
+
+
+def _remember_parts(ctx: Any, inputs: tuple[Any, ...], output: Tensor) -> None:
+    *tensors, ctx.scale = inputs
+    ctx.save_for_backward(*tensors)
+
+
+def _backward_parts(ctx: Any, gradient: Tensor) -> tuple[Tensor | None, ...]:
+    found = shared_attention_backward(gradient.contiguous(), *ctx.saved_tensors, ctx.scale)
+    return *(part[None] for part in found), None, None
+
+
+torch.library.register_autograd(
+    "planner_ft::shared_attention", _backward_parts, setup_context=_remember_parts
+)
+
+
 def register_attention() -> None:
-    """Name the attention CAUSAL for transformers' models; padding must stand on the right."""
+    """Name the attention CAUSAL for transformers' models; padding must stand on the right. With
+    `parts`, samples share a row (`packs.Row`).
+    """
     from transformers.modeling_utils import ALL_ATTENTION_FUNCTIONS
 
     def attend(
@@ -93,10 +178,13 @@ def register_attention() -> None:
         value: Tensor,
         _mask: Any,
         scaling: float,
+        parts: Tensor | None = None,
         **_: Any,
     ) -> tuple[Tensor, None]:
         # Rotary positions leave queries and keys in float32, also where values are bfloat16.
         same = (query.to(value.dtype), key.to(value.dtype), value)
+        if parts is not None:
+            return shared_attention(*same, parts, scaling)[None].transpose(1, 2), None
         attended, _weights = causal_attention(*same, scaling)
         return attended.view(query.shape).transpose(1, 2), None
 

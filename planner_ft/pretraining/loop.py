@@ -21,6 +21,7 @@ from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
 from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
+from planner_ft.pretraining.packs import Row, rows_of_packs
 from planner_ft.pretraining.weights import rounded
 
 
@@ -82,31 +83,48 @@ def learning_rate(settings: PretrainSettings, tokens: int) -> float:
     return max(0.0, min(1.0, done / settings.warmup, (1.0 - done) / settings.decay))
 
 
-def batches(shards: list[Path], settings: PretrainSettings, pad: int, skip: int) -> Iterator[Rows]:
+def batches(
+    shards: list[Path], settings: PretrainSettings, pad: int, skip: int
+) -> Iterator[Rows | Row]:
     """Endless batches over the shards, in order; the first `skip` batches are passed over."""
     number, epoch = 0, 0
     while True:
         for index, shard in enumerate(shards):
             seed = settings.seed + 7919 * epoch + index
-            for rows in batched(load_shard(shard), settings.batch_tokens, pad, seed):
+            samples, packs = load_shard(shard)
+            drawn: list[Rows | Row] = [*batched(samples, settings.batch_tokens, pad, seed)]
+            drawn += rows_of_packs(packs, settings.batch_tokens, np.random.default_rng(seed + 1))
+            if packs:
+                drawn = [
+                    drawn[at] for at in np.random.default_rng(seed + 2).permutation(len(drawn))
+                ]
+            for rows in drawn:
                 number += 1
                 if number > skip:
                     yield rows
         epoch += 1
 
 
-def completion_loss(model: Any, body: Any, rows: Rows, rank: int = 0, world: int = 1) -> Tensor:
+def completion_loss(
+    model: Any, body: Any, rows: Rows | Row, rank: int = 0, world: int = 1
+) -> Tensor:
     """Mean cross-entropy over the answer tokens of a batch, of this rank's rows where several run.
 
     The sum over the ranks is the loss of the batch.
     """
     answers = int((rows.labels != IGNORE).sum())
-    own = share_of(rows, rank, world)
+    own = rows if isinstance(rows, Row) else share_of(rows, rank, world)
+    shared = {}
+    if isinstance(rows, Row):
+        shared = {
+            "position_ids": torch.from_numpy(rows.positions),
+            "parts": torch.from_numpy(rows.parts),
+        }
     labels = torch.from_numpy(own.labels).flatten()
     places = (labels != IGNORE).nonzero().squeeze(1)
     with torch.autocast("cpu", dtype=torch.bfloat16):
         # Padding stands on the right, where no token sees it: the causal mask is enough.
-        hidden = body(input_ids=torch.from_numpy(own.input_ids), use_cache=False)[0]
+        hidden = body(input_ids=torch.from_numpy(own.input_ids), use_cache=False, **shared)[0]
     chosen = hidden.flatten(0, 1)[places]
     return summed_cross_entropy(chosen, model.lm_head.weight, labels[places]) / max(1, answers)
 

@@ -1,3 +1,1 @@
-"""Reports of benchmark runs for people who would rather look than read: one HTML file, figures,
-tables, model cards.
-"""
+"""Reports of benchmark runs to look at: one HTML file, figures, tables, model cards."""

@@ -1,17 +1,21 @@
-"""Every sample with its answers, packed for the page: an index, and details in compressed parts."""
+"""Every sample with its answers and what differs, packed for the page: an index, and details."""
 
 from __future__ import annotations
 
 import base64
 import gzip
 import json
+from collections import defaultdict
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
-from planner_ft.benchmark.metrics.alignment import Entries, Entry, plan_entries
+from rapidfuzz.distance import LCSseq
+
+from planner_ft.benchmark.metrics.alignment import Entries, Entry, align, plan_entries, replaced
+from planner_ft.benchmark.metrics.values import changed_keys
 from planner_ft.benchmark.results import Row
-from planner_ft.report.differences import differences
 from planner_ft.report.runs import TestSet
+from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
@@ -34,9 +38,7 @@ def packed(value: Any) -> str:
 
 
 def index(tests: TestSet) -> dict[str, Any]:
-    """The page filters by it: systems, outcomes, names, and per sample id, command, group, family
-    and (outcome, F1, names) per system.
-    """
+    """What the page filters by: per sample id, command, group, family, and a brief per system."""
     outcomes, names = {RIGHT: 0}, dict[str, int]()
 
     def brief(system: Row, sample: str) -> list[Any] | None:
@@ -114,3 +116,55 @@ def _shown(level: Level, plan: Any, entry: Entry) -> list[Any]:
     prompt = plan["tasks"][entry.step].get("task_prompt")
     text = prompt if isinstance(prompt, str) else ""
     return [entry.name, entry.parameters, str(entry.step + 1), text]
+
+
+Mark = Literal["same", "changed", "moved", "missing", "extra", "substituted"]
+
+
+class Difference(NamedTuple):
+    """Indices into the expected and the predicted entries, and the parameters that differ."""
+
+    mark: Mark
+    expected: int | None
+    predicted: int | None
+    changed: tuple[str, ...] = ()
+
+
+def differences(
+    level: Level, expected: Entries, predicted: Entries, vocabulary: Vocabulary
+) -> list[Difference]:
+    """The lines of a side-by-side view; additions stand where the answer has them."""
+    alignment = align(level, expected, predicted, vocabulary)
+    steady = _in_order([theirs for _ours, theirs in alignment.pairs])
+    lines = {}
+    for pair in alignment.pairs:
+        one, other = expected[pair[0]], predicted[pair[1]]
+        moved = pair[1] not in steady
+        if level == "task":
+            moved = (one.step, one.role) != (other.step, other.role)
+        changed: tuple[str, ...] = ()
+        if one.stated:
+            changed = changed_keys(level, one.name, other.parameters, one.parameters, vocabulary)
+        mark: Mark = "changed" if changed else "moved" if moved else "same"
+        lines[pair[0]] = Difference(mark, *pair, changed)
+    for ours, theirs in replaced(alignment).items():
+        lines[ours] = Difference("substituted", ours, theirs)
+    beside = {line.predicted: ours for ours, line in lines.items()}
+    after: dict[int, list[Difference]] = defaultdict(list)
+    last = -1
+    for index in range(len(predicted)):
+        if index in beside:
+            last = beside[index]
+        else:
+            after[last].append(Difference("extra", None, index))
+    ordered = after[-1]
+    for index in range(len(expected)):
+        ordered += [lines.get(index, Difference("missing", index, None)), *after[index]]
+    return ordered
+
+
+def _in_order(numbers: list[int]) -> set[int]:
+    """A longest increasing subsequence of different numbers: the others have moved."""
+    blocks = LCSseq.opcodes(numbers, sorted(numbers))
+    equal = [block for block in blocks if block.tag == "equal"]
+    return {number for one in equal for number in numbers[one.src_start : one.src_end]}

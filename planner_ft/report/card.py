@@ -10,11 +10,11 @@ from typing import Any
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.layout import metric_table
 from planner_ft.benchmark.results import Row, heading
-from planner_ft.candidates.adapters import CONFIG, MANIFEST, WEIGHTS
+from planner_ft.candidates.adapters import MANIFEST, WEIGHTS, adapter_sha256
 from planner_ft.report.contents import MAIN, failure_words
 from planner_ft.report.runs import TestSet, load_test_sets, within
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, read_text, sha256_tree, write_text
+from planner_ft.support.files import read_json, read_text, write_text
 from planner_ft.support.tables import markdown_table
 
 CARD = "README.md"
@@ -27,16 +27,15 @@ Measured = tuple[TestSet, Row]
 
 def write_card(adapter: Path, runs: Sequence[Path]) -> int:
     """Write what these runs measured with exactly this adapter into its card; figures of an earlier
-    call are replaced. Returns how many figures were written.
-
-    Raises PlannerError when the folder has no card, or no run measured these very weights.
+    call are replaced. Returns how many figures were written. Raises PlannerError when the folder
+    has no card, or no run measured these very weights.
     """
     from huggingface_hub import ModelCard
 
     if not (adapter / CARD).is_file() or not (adapter / WEIGHTS).is_file():
         expected = f"{CARD} and {WEIGHTS} are expected"
         raise PlannerError(f"--card {adapter}: no adapter with a model card there ({expected})")
-    digest = sha256_tree(adapter, (WEIGHTS, CONFIG))
+    digest = adapter_sha256(adapter)
     every = [(tests, row) for tests in load_test_sets(runs) for row in tests.results.rows]
     measured = [(tests, row) for tests, row in every if tests.adapters.get(row.key) == digest]
     if not measured:

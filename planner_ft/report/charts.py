@@ -11,11 +11,11 @@ from typing import Literal
 
 import numpy as np
 
-from planner_ft.benchmark.costs import QUANTILES
 from planner_ft.benchmark.layout import lines, shows_published
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Row
 from planner_ft.benchmark.statistics import quantile
+from planner_ft.benchmark.summary import QUANTILES
 from planner_ft.report.runs import Record, TestSet
 from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
 from planner_ft.vocabulary.plans import list_key
@@ -94,7 +94,7 @@ def _table(
     words = LEVELS[tests.level] | {"n": tests.n, **values}
     title, caption = (WORDS[kind][key].format(**words) for key in ("title", "caption"))
     name = f"{tests.key}-{kind}{ending}"
-    return Table(name, title, caption, heads[0], tuple(heads[1:]), tuple(rows))
+    return Table(heads[0], heads[1:], rows, 0, name, title, caption)
 
 
 def _f1(tests: TestSet) -> Chart:

@@ -10,9 +10,9 @@ from planner_ft.benchmark.catalogue import METRIC, METRICS, RIGHT, SECTIONS
 from planner_ft.benchmark.contrasts import baseline_sentences, contrast_notes, legend
 from planner_ft.benchmark.layout import lines, metric_table
 from planner_ft.benchmark.layout import notes as table_notes
+from planner_ft.benchmark.paired import p_text
 from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.tables import cost_tables, detail_tables, group_tables
-from planner_ft.benchmark.verdicts import p_text
 from planner_ft.report.charts import Chart, charts, slug, system_charts
 from planner_ft.report.runs import TestSet
 from planner_ft.support.tables import Cell, Table, row
@@ -66,7 +66,7 @@ def section(tests: TestSet) -> Section:
 
     costs = {one.name: one.costs for one in results.rows if one.costs}
     brackets = "In brackets 95 % intervals."
-    known = {name for _title, names in SECTIONS for name in names} | set(RIGHT)
+    known = {name for names in SECTIONS.values() for name in names} | set(RIGHT)
     rest = [("Whole plan", RIGHT), ("Output", [name for name in METRICS if name not in known])]
     extra = [named(one, caption=brackets) for one in cost_tables(costs)]
     small = "Groups are small: they tell where to look, not which system is better."
@@ -137,4 +137,4 @@ def _differences(results: Results) -> Iterator[Table]:
     caption += " for each question."
     if rows:
         heads = ("Metric", "Difference", "p", "Verdict")
-        yield Table("", "", caption, "Systems", heads, tuple(rows), texts=1)
+        yield Table("Systems", heads, rows, texts=1, caption=caption)

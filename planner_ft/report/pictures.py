@@ -10,12 +10,17 @@ import io
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import astuple
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from planner_ft.report.charts import Chart
-from planner_ft.support.tables import NOTHING, Bounds, Table
+from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.curve.points import SHOWN, Point
+from planner_ft.report.charts import WORDS, Chart, cell
+from planner_ft.support.files import atomic_writer
+from planner_ft.support.tables import NOTHING, Bounds, Cell, Table, TableRow
 
 WIDE, NARROW = 860, 340
 """Widths in pixels, which are points here: letters keep their size on a phone."""
@@ -108,9 +113,7 @@ def _bounds(table: Table, column: int) -> list[Bounds]:
 
 
 def _rows(figure: Any, chart: Chart, axis: str, width: float, panels: int) -> tuple[Any, float]:
-    """Axes with a row per heading, the first on top, and their height; on a narrow page headings
-    stand above their rows.
-    """
+    """Axes with a row per heading, on a narrow page below it, and their height."""
     labels, narrow = [fitted(row.heading) for row in chart.table.rows], width <= NARROW
     ratios = [2, 1][:panels]
     axes = figure.subplots(1, panels, sharey=True, squeeze=False, width_ratios=ratios)[0]
@@ -235,3 +238,22 @@ def _matrix(figure: Any, chart: Chart, _width: float) -> tuple[float, float]:
 
 DRAW: dict[str, Callable[[Any, Chart, float], tuple[float, float]]]
 DRAW = {"bars": _bars, "lines": _lines, "dots": _dots, "matrix": _matrix}
+
+
+def write_figure(points: Sequence[Point], what: str, out: Path) -> list[Path]:
+    """Draw SHOWN by number of training samples (`what`) as learning-curve.png and .svg in `out`."""
+    rows = [
+        TableRow(METRIC[name].heading.removesuffix(" (%)"), (cell(point.size), figure, Cell("")))
+        for name in SHOWN
+        for point in points
+        for figure in [cell(*astuple(point.metrics[name]))]
+    ]
+    words = WORDS["learning-curve"]
+    heads = (f"{what} trained on", "share", "")
+    table = Table("Line", heads, rows, name="learning-curve", **words)
+    written = []
+    for suffix, content in picture(Chart("lines", table)).items():
+        written.append(out / f"{table.name}.{suffix}")
+        with atomic_writer(written[-1], "wb") as stream:
+            stream.write(content)
+    return written

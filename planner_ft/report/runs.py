@@ -59,9 +59,7 @@ class Run:
 
 @dataclass(frozen=True)
 class TestSet:
-    """Systems measured on the same data, in the rows of `results`, each with a name of its own;
-    `samples` is empty where the data is gone.
-    """
+    """Systems on the same data, each with a name of its own; without `samples` if it is gone."""
 
     __test__ = False
 
@@ -112,7 +110,6 @@ def within(record: Any, *keys: str) -> Any:
 
 def load_test_sets(folders: Sequence[Path], data: Sequence[Path] = ()) -> list[TestSet]:
     """The runs in these folders (or below them), grouped by the data that they were measured on.
-
     `data` are files to look for test data in beside the path that a run names; only one with the
     recorded SHA-256 is used. Raises PlannerError for a folder without results and damaged files.
     """

@@ -1,10 +1,12 @@
-"""A person's decision about a plan in the log: it shows later changes, not who decided."""
+"""A person's decision about a plan in the log, and its runs: it shows later changes, not who
+decided.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from planner_ft.document import PlanDocument, altered, differences, document_digest
 from planner_ft.review.log import Appended, append
@@ -52,6 +54,19 @@ def reject(document: PlanDocument, log: Path, reviewer: str, reason: str) -> App
         raise PlannerError("a rejection needs its reason; give it with --reject REASON")
     _check_texts(reviewer, reason)
     return append(log, _decision("rejected", document, reviewer, reason, []))
+
+
+def record_run(
+    event: Literal["run", "aborted", "ended"],
+    document: PlanDocument,
+    log: Path,
+    reviewer: str,
+    words: str,
+) -> Appended:
+    """Record that an approved plan is carried out, aborted, or over. Raises PlannerError."""
+    _check_texts(reviewer, "")
+    record = {**_decision(event, document, reviewer, words, []), "plan": None}
+    return append(log, record)
 
 
 def _decision(

@@ -1,7 +1,8 @@
-"""The approval log: append-only JSON Lines that keep every decision with the plan itself.
+"""The approval log: append-only JSON Lines that keep every decision with the plan itself, and runs.
 
 A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", "plan",
-"acknowledged", "differences", "models", "previous" and "hash" (see `chain`).
+"acknowledged", "differences", "models", "previous" and "hash" (see `chain`). Records of runs
+("run", "aborted", "ended") hold no plan, and say more in "reason".
 """
 
 from __future__ import annotations

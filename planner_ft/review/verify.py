@@ -13,6 +13,8 @@ from planner_ft.review.changes import Change, changes
 from planner_ft.review.log import read_log
 
 Status = Literal["approved", "rejected", "altered", "unknown"]
+DECISIONS = ("approved", "rejected")
+"""Events of the log that decide; the others tell of runs."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,8 @@ def approval_of(document: PlanDocument, log: Path) -> Approval:
     """The log's knowledge of the plan as it is now. Raises PlannerError for a broken log."""
     records, digest = read_log(log), document_digest(document)
     intact = document.get("digest") == digest
-    last = next((record for record in reversed(records) if record["digest"] == digest), None)
+    decided = [one for one in records if one["event"] in DECISIONS]
+    last = next((record for record in reversed(decided) if record["digest"] == digest), None)
     if intact and last is not None:
         status: Status = "approved" if last["event"] == "approved" else "rejected"
         why = f": {last['reason']}" if last["reason"] else ""

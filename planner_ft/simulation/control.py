@@ -11,8 +11,8 @@ FIX_SIGMA = 0.25
 """Metres, of a GPS fix along each axis: ASSUMPTION, a receiver with corrections."""
 FIX_EVERY = 1.0
 """Seconds between two fixes."""
-ALPHA, BETA = 0.25, 0.03
-"""Gains of the tracking filter for position and drift (Benedict and Bordner 1962)."""
+DRIFT, GUST = 0.05, 1e-4
+"""m/s that the water may drift by at the start, and (m/s)^2/s by which that may change."""
 MOST_YAW = 0.7
 """Share of the thrust that steering may take; going ahead has the rest."""
 
@@ -75,13 +75,15 @@ class Autopilot:
 class Localiser:
     """Position by GPS and dead reckoning; heading and speed through the water are measured.
 
-    `position` (B, 2) and the learnt `drift` (B, 2) of the water; `silent` (B,) are seconds since
+    A Kalman filter of `position` (B, 2) and `drift` (B, 2) of the water, the same along both axes;
+    `spread` (2, 2) is its covariance. `silent` (B,) are seconds since
     the last fix, `fix` (B, 2) the last fix.
     """
 
     def __init__(self, place: Floats, generator: np.random.Generator) -> None:
         self.position, self.drift = place.copy(), np.zeros_like(place)
         self.fix, self.silent = place.copy(), np.zeros(len(place))
+        self.spread = np.diag([0.0, DRIFT**2])
         self.generator = generator
 
     def step(
@@ -89,12 +91,16 @@ class Localiser:
     ) -> None:
         """Take one step; `heard`: the receiver works, `due`: a fix is due now."""
         through = turned(twist[:, :2], pose[:, 3]) - current
+        moving = np.array([[1.0, seconds], [0.0, 1.0]])
+        self.spread = moving @ self.spread @ moving.T + np.diag([0.0, GUST * seconds])
         self.position = self.position + seconds * (through + self.drift)
         self.silent += seconds
         if heard and due:
             noise = self.generator.normal(0.0, FIX_SIGMA, self.position.shape)
             self.fix = pose[:, :2] + noise
             error = self.fix - self.position
-            self.position = self.position + ALPHA * error
-            self.drift = self.drift + BETA / FIX_EVERY * error
+            gain = self.spread[:, 0] / (self.spread[0, 0] + FIX_SIGMA**2)
+            self.spread = self.spread - np.outer(gain, self.spread[0])
+            self.position = self.position + gain[0] * error
+            self.drift = self.drift + gain[1] * error
             self.silent[:] = 0.0

@@ -144,20 +144,22 @@ class Executor:
     def abort(self, runs: Runs, reason: str = "aborted") -> None:
         """Stop runs at once."""
         for run in runs:
-            if self.outcome[run] == "running":
-                self._end(int(run), "stopped", reason)
+            self._end(int(run), "stopped", reason)
 
     def _judge(self, at: int, runs: Runs) -> None:
         """End what is over: steps, and runs that cannot go on."""
         scene, stage, running = self.scene, self.stages[at], self.running[at]
         returning = at == len(self.stages) - 1
         hit = scene.world.nearest(scene.pose[runs, :2]) < scene.vessel.radius
-        empty = scene.charge[runs] <= 0
-        for run in runs[hit]:
-            self._end(int(run), "collision", f"hit a structure during {stage.movement.skill}")
-        for run in runs[empty & ~hit]:
-            self._end(int(run), "stopped", "the battery is empty")
-        runs = runs[~hit & ~empty]
+        ends: list[tuple[Bools, Outcome, str]] = [
+            (scene.broken[runs], "stopped", "the simulator gave no finite state"),
+            (hit, "collision", f"hit a structure during {stage.movement.skill}"),
+            (scene.charge[runs] <= 0, "stopped", "the battery is empty"),
+        ]
+        for which, outcome, reason in ends:
+            for run in runs[which]:
+                self._end(int(run), outcome, reason)
+        runs = runs[self.active[runs]]
         failures, done = running.failures(runs), running.done(runs)
         short = {} if returning else self._short(runs)
         for run, is_done in zip(runs.tolist(), done, strict=True):
@@ -228,6 +230,8 @@ class Executor:
             self.scene.note(int(run), "step", where)
 
     def _end(self, run: int, outcome: Outcome, reason: str) -> None:
+        if self.outcome[run] != "running":
+            return
         self.outcome[run], self.reason[run] = outcome, reason
         self.ended[run] = self.scene.steps
         self.scene.idle[run] = True

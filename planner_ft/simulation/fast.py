@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.metadata import EntryPoint
 from typing import Protocol
 
 import numpy as np
@@ -102,5 +103,14 @@ class FastSimulator:
         return np.stack([port + starboard, nothing, nothing, moment], axis=1)
 
 
-SIMULATORS = {"fast": FastSimulator}
+SIMULATORS = {
+    "fast": "planner_ft.simulation.fast:FastSimulator",
+    "mujoco": "planner_ft.simulation.fossen:FossenSimulator",
+}
 """Simulators by the name that --simulator takes."""
+
+
+def build_simulator(name: str, vessel: Vessel, runs: int) -> Simulator:
+    """A simulator of `runs` vehicles. Raises PlannerError where it lacks what it needs."""
+    made: Simulator = EntryPoint(name, SIMULATORS[name], "").load()(vessel, runs)
+    return made

@@ -140,7 +140,10 @@ class Boundary(Filter):
             back = np.zeros_like(command)
             back[:, 0] = 0.5 * np.clip(np.cos(bearing), 0, 1)
             back[:, 3] = np.clip(0.9 * bearing, -self.scene.vessel.turn, self.scene.vessel.turn)
-            command = np.where((over > OVER / 2)[:, None] & self.kept[runs][:, None], back, inside)
+            kept, out = self.kept[runs][:, None], over[:, None]
+            # Who begins outside, such as on the way home, is led in by the movement.
+            made = np.where(kept & (out > OVER / 2), back, inside)
+            command = np.where(~kept & (out > 0), command, made)
         self.watch(runs, worst <= 0, worst > OVER)
         return command
 

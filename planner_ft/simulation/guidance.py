@@ -1,4 +1,4 @@
-"""Line-of-sight guidance on paths: what all movements share, going somewhere, and the way home.
+"""Line-of-sight guidance on paths: what all movements share, and going somewhere.
 
 Guidance steers the course over ground to a point ahead on the path (line of sight, Fossen 2021,
 chapter 12); the sideslip that wind and current cause is measured and taken off, which is what the
@@ -12,15 +12,16 @@ import math
 import numpy as np
 
 from planner_ft.document.clearance import way_round
-from planner_ft.simulation.control import Pid
+from planner_ft.document.track import Point
+from planner_ft.simulation.control import FIX_SIGMA, Pid
 from planner_ft.simulation.fast import Bools, Floats, Runs, turned, wrapped
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill
 
 AHEAD = 4.0
 """Metres that guidance looks ahead on the path."""
-NEAR = 3.0
-"""Tolerances within which a planned way is joined; from farther off the way begins anew."""
+NEAR, DETOUR = 3.0, 24
+"""Tolerances within which a planned way is joined, and points of a way to it from farther off."""
 SLOW, BRAKE = 0.1, 0.125
 """m/s at the goal, and m/s^2 at which the vehicle slows down before it."""
 TANGENT = 1.0
@@ -78,28 +79,40 @@ class Follow(Movement):
     def __init__(self, job: Job, scene: Scene) -> None:
         super().__init__(job, scene)
         points = job.points if len(job.points) > 1 else (*job.points, *job.points)
-        self.paths = np.tile(np.array(points, dtype=float), (scene.count, 1, 1))
+        self.planned = [(float(x), float(y)) for x, y in points]
+        self.paths = np.tile(np.array([*points, *[points[-1]] * DETOUR]), (scene.count, 1, 1))
         self.leg = np.zeros(scene.count, dtype=int)
         self.last = np.full(scene.count, len(points) - 2)
         """The last leg of each run's path."""
         self.there = np.zeros(scene.count, dtype=bool)
+        self.doubt = float(np.clip(job.tolerance - 3 * FIX_SIGMA, 0, FIX_SIGMA))
+        """Metres by which a goal must be nearer than its tolerance, as far as that leaves room."""
         altitude, heading = job.value("altitude"), job.value("heading")
         self.altitude = None if altitude is None else float(altitude)
         self.heading = None if heading is None else math.radians(90 - float(heading))
 
     def start(self, runs: Runs) -> None:
         super().start(runs)
-        here, planned = self.scene.position[runs], self.paths[runs, 0]
-        near = np.linalg.norm(planned - here, axis=1) < NEAR * self.job.tolerance
-        self.paths[runs, 0] = np.where(near[:, None], planned, here)
+        for run in runs:
+            here = float(self.scene.position[run, 0]), float(self.scene.position[run, 1])
+            if math.dist(here, self.planned[0]) >= NEAR * self.job.tolerance:
+                self._join(int(run), here)
         self.leg[runs], self.there[runs] = 0, False
+
+    def _join(self, run: int, here: Point) -> None:
+        """Begin the way anew from afar, round the structures of the plan."""
+        world = self.scene.world
+        way = way_round(here, self.planned[1], world.charted, world.allowed)[:DETOUR]
+        points = [here, *way, *self.planned[1:]]
+        self.last[run] = len(points) - 2
+        self.paths[run] = [*points, *[points[-1]] * (self.paths.shape[1] - len(points))]
 
     def step(self, runs: Runs, command: Floats) -> Floats:
         here = self.scene.position[runs]
         aim, left = self._aim(runs, here)
         to = aim - here
         away = np.linalg.norm(to, axis=1)
-        self.there[runs] |= left < self.job.tolerance
+        self.there[runs] |= left < self.job.tolerance - self.doubt
         speed = np.minimum(self.job.speed, SLOW + np.sqrt(2 * BRAKE * left))
         made = self.toward(runs, to / np.maximum(away, 1e-6)[:, None] * speed[:, None])
         arrived = self.there[runs]
@@ -155,22 +168,3 @@ class Follow(Movement):
     def errors(self, runs: Runs) -> dict[str, Floats]:
         goal = self.paths[runs, -1]
         return {"waypoint": np.linalg.norm(self.scene.pose[runs, :2] - goal, axis=1)}
-
-
-class Home(Follow):
-    """Home, round the structures of the plan; no part of a plan, but what it falls back to."""
-
-    def __init__(self, job: Job, scene: Scene) -> None:
-        super().__init__(job, scene)
-        self.longest = 24
-        self.paths = np.tile(np.array([scene.world.home], float), (scene.count, self.longest, 1))
-
-    def start(self, runs: Runs) -> None:
-        known, home = self.scene.world.charted, self.scene.world.home
-        for run in runs:
-            here = float(self.scene.position[run, 0]), float(self.scene.position[run, 1])
-            way = way_round(here, home, known, self.job.settings["allowed"])
-            points = [here, *way[: self.longest - 2], home]
-            self.last[run] = len(points) - 2
-            self.paths[run] = points + [home] * (self.longest - len(points))
-        super().start(runs)

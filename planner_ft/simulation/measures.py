@@ -133,13 +133,15 @@ class Observer:
     def _step(self, running: Running, runs: Runs) -> None:
         stage, scene = running.stage, self.scene
         here = scene.pose[runs, :2]
-        held = running.movement.errors(runs).get("holding")
+        errors = running.movement.errors(runs)
+        held, kept = errors.get("holding"), errors.get("standoff")
         if held is not None:
             self.holding[runs] += held
             self.held[runs] += 1
         ring = self.rings.get(stage.task)
-        if ring is not None and ring.holds(stage.movement):
-            off, reached = ring.off(here), self.reached.setdefault(stage.task, self.held < 0)
+        if ring is not None and (kept is not None or ring.holds(stage.movement)):
+            off = ring.off(here) if kept is None else kept
+            reached = self.reached.setdefault(stage.task, self.held < 0)
             reached[runs] |= off < stage.movement.tolerance
             self.standing[runs] += off * reached[runs]
             self.stood[runs] += reached[runs]

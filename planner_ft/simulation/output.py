@@ -65,9 +65,9 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     ]
     rows = [row("runs", str(len(done.results)), *(one["runs"] for one in quoted))]
     for name, (heading, *_form) in COLUMNS.items():
-        cells = [_cell(name, Estimate(_number(one, name))) for one in quoted]
-        rows.append(row(heading, _cell(name, measured[name]), *cells))
-    return Table("simulation", "", CAPTION, "", tuple(names), tuple(rows))
+        cells = [cell(name, Estimate(number(one, name))) for one in quoted]
+        rows.append(row(heading, cell(name, measured[name]), *cells))
+    return Table("", names, rows, caption=CAPTION)
 
 
 def outcome_lines(results: list[RunResult]) -> list[str]:
@@ -95,16 +95,17 @@ def results_json(done: Simulated) -> dict[str, Any]:
 def manifest(done: Simulated) -> dict[str, Any]:
     """What the results depend on."""
     settings, vocabulary = done.settings, done.plan.vocabulary
-    names = ("runs", "simulator", "tolerance", "draft", "mcap")
+    names = ("runs", "simulator", "tolerance", "draft", "mcap", "goto", "survey")
     configuration = {
         **{name: getattr(settings, name) for name in names},
         "starts": [list(start) for start in settings.starts],
         "locations": {name: list(place) for name, place in settings.locations.items()},
+        "outlines": {name: one.tolist() for name, one in settings.outlines.items()},
         "faults": [fault.text for fault in settings.faults.all],
         "origin": asdict(done.plan.origin) if done.plan.origin else None,
         "vessel": asdict(done.scene.vessel),
         "step_seconds": done.scene.seconds,
-        "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+        "vocabulary": vocabulary.named,
     }
     inputs: dict[str, Path | str] = {"plan": settings.plan}
     approval = done.plan.mark
@@ -117,22 +118,27 @@ def manifest(done: Simulated) -> dict[str, Any]:
     )
 
 
-def _cell(name: str, value: Estimate) -> Cell:
+def cell(name: str, value: Estimate) -> Cell:
     _heading, factor, decimals = COLUMNS[name]
     return figure(value.value, value.low, value.high, scale=factor, decimals=decimals)
+
+
+def published_missions() -> list[dict[str, str]]:
+    """The lines of published.csv."""
+    with open(PUBLISHED, encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
 
 
 def _published(done: Simulated, narrow: bool) -> list[dict[str, str]]:
     """The published missions of this command, or all of them; none of another vehicle."""
     if done.plan.vocabulary.name != "usv":
         return []
-    with open(PUBLISHED, encoding="utf-8", newline="") as stream:
-        lines = list(csv.DictReader(stream))
+    lines = published_missions()
     same = [line for line in lines if line["command"] == done.plan.document["command"].strip()]
     return same or ([] if narrow else lines)
 
 
-def _number(line: dict[str, str], name: str) -> float | None:
+def number(line: dict[str, str], name: str) -> float | None:
     """A published figure, a rate as a fraction; None where none was published."""
     text = line.get(name)
     return float(text) / (float(line["runs"]) if name == "success" else 1) if text else None

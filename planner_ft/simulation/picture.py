@@ -37,8 +37,13 @@ def _drawn(done: Simulated) -> str:
         axes.add_patch(Polygon(fence.polygon, label=label, linestyle="-.", **edge))
     for boundary in done.plan.track.boundaries:
         axes.add_patch(Polygon(boundary.polygon, linestyle=":", **edge))
-    for structure in done.scene.world.structures:
-        axes.add_patch(Circle(structure.position, PILE, color="#444"))
+    outlines = done.scene.world.outlines
+    for number, structure in enumerate(done.scene.world.structures):
+        solid = (
+            Polygon(outlines[number]) if number in outlines else Circle(structure.position, PILE)
+        )
+        solid.set_color("#444")
+        axes.add_patch(solid)
         ring: dict[str, Any] = {"fill": False, "edgecolor": "#888", "linestyle": "--"}
         axes.add_patch(Circle(structure.position, structure.standoff, **ring))
         axes.annotate(structure.name, structure.position, (4, 4), textcoords="offset points")

@@ -19,10 +19,11 @@ from planner_ft.planning.frame import origin_of
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
 from planner_ft.simulation.executor import Executor
-from planner_ft.simulation.fast import SIMULATORS
+from planner_ft.simulation.fast import SIMULATORS, Floats, build_simulator
 from planner_ft.simulation.faults import Faults
 from planner_ft.simulation.measures import Observer, RunResult
 from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.slots import GUIDANCE, WAYPOINTS, Slots
 from planner_ft.simulation.staging import Staging
 from planner_ft.simulation.vessel import TOLERANCE, build_vessel, simulation_file
 from planner_ft.simulation.world import World
@@ -49,6 +50,7 @@ OURS = (
 )
 """Files of a simulation, which --overwrite may remove."""
 Report = Callable[[str, int, int], None]
+Watch = Callable[[Executor], None]
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,9 @@ class SimulationSettings:
     draft: bool = False
     vocabulary: str | None = None
     overwrite: bool = False
+    goto: str = GUIDANCE
+    survey: str = WAYPOINTS
+    outlines: Mapping[str, Floats] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Raise PlannerError for numbers out of range and an unknown simulator."""
@@ -84,6 +89,13 @@ class SimulationSettings:
         if self.simulator not in SIMULATORS:
             known = ", ".join(SIMULATORS)
             raise PlannerError(f"--simulator {self.simulator}: must be one of {known}")
+
+        _ = self.slots
+
+    @property
+    def slots(self) -> Slots:
+        """What fills the slots of the plan. Raises PlannerError."""
+        return Slots(self.goto, self.survey, self.outlines)
 
     @property
     def folder(self) -> Path:
@@ -105,8 +117,12 @@ class Simulated:
     """The log of run 1, without its poses."""
 
 
-def simulate(settings: SimulationSettings, report: Report | None = None) -> Simulated:
-    """Run an approved plan and write everything into the folder. Raises PlannerError."""
+def simulate(
+    settings: SimulationSettings, report: Report | None = None, watch: Watch | None = None
+) -> Simulated:
+    """Run an approved plan and write everything into the folder; `watch` is called after every
+    step. Raises PlannerError.
+    """
     plan = read_plan(settings)
     with alone(settings.folder, "--out", "a simulation"):
         check_writable(settings.folder)
@@ -118,7 +134,7 @@ def simulate(settings: SimulationSettings, report: Report | None = None) -> Simu
         if kept:
             _clear(settings.folder)
         settings.folder.mkdir(parents=True, exist_ok=True)
-        done = prepared.run(report or (lambda _label, _done, _total: None))
+        done = prepared.run(report or (lambda _label, _done, _total: None), watch)
         from planner_ft.simulation.output import write_all
 
         write_all(done)
@@ -155,7 +171,7 @@ class _Prepared:
         if one_sided and self.vessel.drive != "differential":
             problem = f"{vocabulary.name} has no port and starboard thrusters"
             raise PlannerError(f"--fault {one_sided[0].text}: {problem}; leave it out")
-        self.staging = Staging(plan, self.vessel, raw, settings.tolerance)
+        self.staging = Staging(plan, self.vessel, raw, settings.tolerance, settings.slots)
         if settings.mcap and importlib.util.find_spec("mcap_ros2") is None:
             ways = "pip install planner_ft[sim], or give --mcap 0"
             raise PlannerError(f"--mcap {settings.mcap}: ROS 2 logs need an extra; {ways}")
@@ -173,11 +189,13 @@ class _Prepared:
             placed,
             objects,
             self.staging.fences,
+            self.staging.allowed,
             settings.faults,
             settings.runs,
             settings.seed,
         )
         count = settings.runs
+        self.simulator = build_simulator(settings.simulator, self.vessel, count)
         poses = np.zeros((count, 4))
         poses[:, :2] = [starts[run % len(starts)] for run in range(count)]
         poses[:, 3] = np.random.default_rng([settings.seed, 3]).uniform(-math.pi, math.pi, count)
@@ -198,13 +216,12 @@ class _Prepared:
         }
         return {**self._named(), **given}
 
-    def run(self, report: Report) -> Simulated:
+    def run(self, report: Report, watch: Watch | None) -> Simulated:
         settings, staging = self.settings, self.staging
         with contextlib.ExitStack() as stack:
             writer = _Writer(settings, stack)
-            simulator = SIMULATORS[settings.simulator](self.vessel, settings.runs)
             origin = self.plan.origin or Origin(0.0, 0.0)
-            scene = Scene(self.world, simulator, self.starts, origin, writer.write)
+            scene = Scene(self.world, self.simulator, self.starts, origin, writer.write)
             tasks = [task["id"] for task in self.plan.document["tasks"]]
             observer = Observer(scene, staging.fences, staging.rings(), staging.close(), tasks)
             writer.begin(scene, observer, self._way())
@@ -214,6 +231,8 @@ class _Prepared:
             executor.begin()
             while executor.step():
                 writer.step(executor)
+                if watch is not None:
+                    watch(executor)
                 if scene.steps % 100 == 0:
                     ended = settings.runs - int(executor.active.sum())
                     report("runs ended", ended, settings.runs)

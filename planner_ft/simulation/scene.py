@@ -36,6 +36,8 @@ class Scene:
         self.localiser = Localiser(starts[:, :2], world.generator)
         self.autopilot = Autopilot(world.vessel, count)
         self.command, self.idle = np.zeros((count, 4)), np.zeros(count, dtype=bool)
+        self.broken = np.zeros(count, dtype=bool)
+        """Runs of which the simulator gave no finite state: they stay where they were."""
         self.actuators = np.zeros((count, 4 if world.vessel.drive == "free" else 2))
         self.energy = np.zeros(count)
         """N s: the integral of all thrust."""
@@ -100,8 +102,15 @@ class Scene:
             left = np.array([world.faults.share(side, time) for side in ("port", "starboard")])
             made = np.clip(made, -left * self.vessel.thrust, left * self.vessel.thrust)
         self.actuators = made
+        before = self.pose.copy()
         self.simulator.step(made, current, wind)
-        spent = dt * np.abs(made[:, : 2 if made.shape[1] == 2 else 3]).sum(axis=1) * active
+        self.broken |= ~np.isfinite(np.hstack([self.pose, self.twist])).all(axis=1)
+        self.pose[self.broken], self.twist[self.broken] = before[self.broken], 0.0
+        spent = (
+            dt
+            * np.abs(np.nan_to_num(made)[:, : 2 if made.shape[1] == 2 else 3]).sum(axis=1)
+            * active
+        )
         self.energy += spent
         self.charge = np.maximum(0, self.charge - spent - dt * self.vessel.hotel * active)
         self.steps += 1

@@ -17,12 +17,13 @@ import numpy as np
 from planner_ft.document.track import Point
 from planner_ft.simulation.fast import Bools, Floats, Runs
 from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.vessel import Vessel
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.motion import Motion
 
 GROUP = "planner_ft.skills"
-PLACE = "planner_ft.simulation"
+PLACE, LEARNT = "planner_ft.simulation", "planner_ft.skills.mission"
 BUNDLED = {
     "go": f"{PLACE}.guidance:Follow",
     "arc": f"{PLACE}.guidance:Follow",
@@ -34,8 +35,10 @@ BUNDLED = {
     "boundary": f"{PLACE}.filters:Boundary",
     "clearance": f"{PLACE}.filters:Clearance",
     "heading": f"{PLACE}.filters:Heading",
-    "home": f"{PLACE}.guidance:Home",
     "measure": f"{PLACE}.sensing:Sensor",
+    "learnt-goto": f"{LEARNT}:LearntGo",
+    "learnt-hold": f"{LEARNT}:LearntHold",
+    "learnt-survey": f"{LEARNT}:LearntSurvey",
 }
 """Implementations by kind of motion (usv.motion.toml), and those without a motion."""
 
@@ -81,6 +84,10 @@ class Skill:
         self.job, self.scene = job, scene
         self.begun = np.zeros(scene.count)
         """When a run began, in s."""
+
+    @classmethod
+    def check(cls, job: Job, vessel: Vessel) -> None:
+        """Raise PlannerError, before anything runs, for a job that it cannot do."""
 
     def start(self, runs: Runs) -> None:
         """The step begins."""

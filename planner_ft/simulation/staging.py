@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.document.clearance import ROUND, Structure, fence, structures
+from planner_ft.document.clearance import ROUND, Allowed, Structure, fence, structures
 from planner_ft.document.limits import limits_of
 from planner_ft.document.track import Leg, Point, place_of
 from planner_ft.exporters.formats import PlanExport
@@ -14,6 +14,7 @@ from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.measures import Ring
 from planner_ft.simulation.sensing import MEASURES
 from planner_ft.simulation.skill import Job, implementation_of, settings_of
+from planner_ft.simulation.slots import LEARNT, WAYPOINTS, Slots
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.simulation.world import PILE, Fence
 from planner_ft.support.errors import PlannerError
@@ -30,9 +31,16 @@ class Staging:
     """The stages of one plan. Raises PlannerError for a plan that cannot be run as a whole."""
 
     def __init__(
-        self, plan: PlanExport, vessel: Vessel, raw: Mapping[str, Any], tolerance: float
+        self,
+        plan: PlanExport,
+        vessel: Vessel,
+        raw: Mapping[str, Any],
+        tolerance: float,
+        slots: Slots | None = None,
     ) -> None:
         self.plan, self.vessel, self.raw, self.tolerance = plan, vessel, raw, tolerance
+        self.slots = slots or Slots()
+        self.slots.check(raw, plan.vocabulary.name)
         self.document, self.vocabulary = plan.document, plan.vocabulary
         self.legs = {(leg.task, leg.step): leg for leg in plan.track.legs}
         self.limits = limits_of(self.document, self.vocabulary)
@@ -43,7 +51,8 @@ class Staging:
         way_out = "give its place with `plannerft review` or --locate of `plannerft plan`"
         for place in self.document["open_places"]:
             numbers = ", ".join(f"t{number}" for number in place["tasks"])
-            problem = f"where {place['name']} is, is not known, and {numbers} needs it"
+            verb = "need" if len(place["tasks"]) > 1 else "needs"
+            problem = f"where {place['name']} is, is not known, and {numbers} {verb} it"
             raise PlannerError(f"{problem}; {way_out}")
         for task in self.document["tasks"]:
             if not task["skill_sequence"] or task.get("stale"):
@@ -65,6 +74,11 @@ class Staging:
         ]
         area = self.document["vehicle"]["area"]
         return found + ([Fence(_polygon(area))] if area else [])
+
+    @property
+    def allowed(self) -> Allowed:
+        """Whether a leg keeps the fences."""
+        return fence(self.document, self.vocabulary)
 
     @property
     def seconds(self) -> float:
@@ -113,14 +127,34 @@ class Staging:
         """The steps of all tasks in their order."""
         for index, task in enumerate(self.document["tasks"]):
             own = self.plan.hold_time(index)
-            for number, step in enumerate(task["skill_sequence"]):
-                yield self._stage(task, number, step, own[1] if own else None)
+            stages = [
+                self._stage(task, number, step, own[1] if own else None)
+                for number, step in enumerate(task["skill_sequence"])
+            ]
+            job = self._survey(task)
+            yield from self.slots.surveyed(stages, job) if job else stages
+
+    def _survey(self, task: Mapping[str, Any]) -> Job | None:
+        """The one movement that takes the place of a task's waypoints, where it is to."""
+        learnt = self.raw.get("task", {}).get(task["title"], {}).get(LEARNT)
+        ring = self.rings().get(task["id"])
+        if self.slots.survey == WAYPOINTS or not learnt or not ring:
+            return None
+        name = next((one.name for one in self.structures if one.position == ring.center), None)
+        folder = {} if self.slots.survey == LEARNT else {"policy": self.slots.survey}
+        standoff = self.slots.standoff(name, ring.radius)
+        settings = {"implementation": learnt, "standoff": standoff, **folder}
+        speed = min(self.vessel.cruise, self.speed)
+        where: dict[str, Any] = {"center": ring.center, "tolerance": self.tolerance, "speed": speed}
+        motion, failure = Motion("go", {}), "survey failed"
+        given = task["parameters"]
+        return Job(task["title"], given, motion, settings, task["id"], failure=failure, **where)
 
     def check_skills(self, stages: Sequence[Stage]) -> None:
         """Raise PlannerError for a skill without implementation and an unknown measure."""
         for stage in stages:
             for job in (stage.movement, *stage.filters, *stage.sensors):
-                implementation_of(job)
+                implementation_of(job).check(job, self.vessel)
                 if (measure := job.settings.get("measure")) not in (None, *MEASURES):
                     where = f"{self.vocabulary.name}{SIMULATION}: [skill.{job.skill}]"
                     problem = f"measure = {measure!r} must be one of {', '.join(MEASURES)}"
@@ -128,9 +162,8 @@ class Staging:
 
     def home(self) -> Stage:
         """The way home, with the vehicle's filters that keep clear and inside."""
-        kept = {"implementation": "home", "allowed": fence(self.document, self.vocabulary)}
         movement = Job(
-            *("way home", {}, Motion("go", {}), kept, "home", 0, (self.vocabulary.home,)),
+            *("way home", {}, Motion("go", {}), {}, "home", 0, (self.vocabulary.home,)),
             speed=min(self.vessel.cruise, self.speed),
             tolerance=self.tolerance,
             failure="home not reached",
@@ -171,12 +204,13 @@ class Staging:
         name, vocabulary = skill["name"], self.vocabulary
         pace = leg.metres / leg.seconds if leg and leg.seconds and leg.metres else None
         speed = min(pace or self.vessel.cruise, self.speed, self.vessel.speed)
-        ring = vocabulary.motion.standoff(task["title"])
+        ring, motion = vocabulary.motion.standoff(task["title"]), vocabulary.motion.of(name)
+        kind = motion.kind if motion else None
         return Job(
             name,
             skill["parameters"],
-            vocabulary.motion.of(name),
-            settings_of(vocabulary, self.raw, name),
+            motion,
+            self.slots.settings(settings_of(vocabulary, self.raw, name), kind),
             task["id"],
             number,
             leg.points if leg else (),

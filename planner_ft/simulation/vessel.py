@@ -69,9 +69,9 @@ class Vessel:
 def simulation_file(vocabulary: Vocabulary) -> dict[str, Any]:
     """NAME.simulation.toml; {} without one. Raises PlannerError for what it may not hold."""
     raw, where = vocabulary.beside(SIMULATION), f"{vocabulary.name}{SIMULATION}"
-    known = {"vessel", "lidar", "skill"}
+    known = ("vessel", "lidar", "skill", "task")
     if unknown := [key for key in raw if key not in known]:
-        raise PlannerError(f"{where}: unknown table [{unknown[0]}]; there is vessel, lidar, skill")
+        raise PlannerError(f"{where}: unknown table [{unknown[0]}]; there is {', '.join(known)}")
     if unknown := [name for name in raw.get("skill", {}) if name not in vocabulary.skill]:
         raise PlannerError(f"{where}: [skill.{unknown[0]}] is no skill of {vocabulary.name}")
     return raw

@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.document.clearance import Structure
+from planner_ft.document.clearance import Allowed, Structure
 from planner_ft.document.track import Point
 from planner_ft.simulation.fast import Floats, Runs
 from planner_ft.simulation.faults import Faults
 from planner_ft.simulation.vessel import Vessel
+from planner_ft.support.errors import PlannerError
 
 PILE = 0.5
 """Metres: radius of a structure, which a plan knows as a point. ASSUMPTION."""
@@ -52,7 +53,7 @@ class Fence:
 
 class World:
     """What stands in the water and what the water does, for B runs of one seed: `structures` where
-    they are, `charted` where the plan has them.
+    they are, `charted` where the plan has them; `allowed` legs keep the fences.
     """
 
     def __init__(
@@ -63,12 +64,13 @@ class World:
         structures: Sequence[Structure],
         objects: Mapping[str, Point],
         fences: Sequence[Fence],
+        allowed: Allowed,
         faults: Faults,
         runs: int,
         seed: int,
     ) -> None:
         self.vessel, self.home, self.charted = vessel, home, tuple(charted)
-        self.structures = tuple(structures)
+        self.structures, self.allowed = tuple(structures), allowed
         self.objects, self.fences, self.faults = dict(objects), tuple(fences), faults
         self.generator = np.random.default_rng([seed, 1])
         speed = self.generator.uniform(*CURRENT, runs)
@@ -78,6 +80,23 @@ class World:
         self._bearing, *self._phases = swell.uniform(0, 2 * np.pi, 1 + 2 * len(WAVES))
         places = [one.position for one in structures] or np.zeros((0, 2))
         self.piles = np.array(places, dtype=float).reshape(-1, 2)
+        self.outlines: dict[int, Floats] = {}
+        """Corners (n, 2) of structures that are more than a pile, by number."""
+
+    def add_outline(self, name: str, corners: Floats) -> None:
+        """Give a structure an outline, by corners about its place. Raises PlannerError."""
+        for number, one in enumerate(self.structures):
+            if one.name.lower() == name.lower():
+                self.outlines[number] = corners + self.piles[number]
+                return
+        known = ", ".join(one.name for one in self.structures) or "none"
+        raise PlannerError(f"--outline {name}: is no structure of the plan; there is {known}")
+
+    @property
+    def round(self) -> Floats:
+        """The places (s, 2) of structures that are piles."""
+        kept = [number for number in range(len(self.piles)) if number not in self.outlines]
+        return self.piles[kept]
 
     def currents(self, time: float) -> Floats:
         """The current (B, 2) in m/s: a fault's beside the drawn one."""
@@ -119,13 +138,11 @@ class World:
         if not own.rays or not len(self.piles):
             return found
         angles = pose[:, 3:4] + self.ray_angles
-        to = self.piles[None] - pose[:, None, :2]
         ahead = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-        along = np.einsum("nrk,nsk->nrs", ahead, to)
-        off = (to**2).sum(-1)[:, None] - along**2
-        chord = PILE**2 - off
-        hit = np.where((chord > 0) & (along > 0), along - np.sqrt(np.maximum(chord, 0)), np.inf)
-        found = hit.min(axis=-1)
+        if len(self.round):
+            found = _to_circles(pose[:, :2], ahead, self.round)
+        for corners in self.outlines.values():
+            found = np.minimum(found, _to_edges(pose[:, :2], ahead, corners))
         found[found > own.reach] = np.inf
         for fault in self.faults.active("lidar", time):
             found[self.generator.random(found.shape) < fault.value] = np.inf
@@ -138,10 +155,15 @@ class World:
 
     def nearest(self, places: Floats) -> Floats:
         """Metres from places (n, 2) to the surface of the nearest structure."""
-        if not len(self.piles):
-            return np.full(len(places), np.inf)
-        away = np.linalg.norm(places[:, None] - self.piles[None], axis=-1)
-        return np.asarray(away.min(axis=1) - PILE, dtype=float)
+        found = np.full(len(places), np.inf)
+        if len(self.round):
+            away = np.linalg.norm(places[:, None] - self.round[None], axis=-1)
+            found = np.asarray(away.min(axis=1) - PILE, dtype=float)
+        for corners in self.outlines.values():
+            found = np.minimum(
+                found, Fence(tuple(map(tuple, corners)), False).outside_by(places) * -1
+            )
+        return found
 
     def find(self, name: Any) -> tuple[str, Point] | None:
         """The object of a name: the same, or one name part of the other; None without one."""
@@ -150,6 +172,29 @@ class World:
         part = [key for key in self.objects if key.lower() in wanted or wanted in key.lower()]
         found = next(iter(exact or (part if wanted else [])), None)
         return None if found is None else (found, self.objects[found])
+
+
+def _to_circles(places: Floats, ahead: Floats, centers: Floats) -> Floats:
+    """Ranges (n, rays) from places (n, 2) along unit vectors (n, rays, 2) to piles."""
+    to = centers[None] - places[:, None]
+    along = np.einsum("nrk,nsk->nrs", ahead, to)
+    off = (to**2).sum(-1)[:, None] - along**2
+    chord = PILE**2 - off
+    hit = np.where((chord > 0) & (along > 0), along - np.sqrt(np.maximum(chord, 0)), np.inf)
+    return np.asarray(hit.min(axis=-1), dtype=float)
+
+
+def _to_edges(places: Floats, ahead: Floats, corners: Floats) -> Floats:
+    """Ranges (n, rays) from places (n, 2) along unit vectors (n, rays, 2) to a polygon's edges."""
+    first = corners[None] - places[:, None]
+    aside = np.stack([-ahead[..., 1], ahead[..., 0]], axis=-1)
+    along = np.einsum("nrk,nsk->nrs", ahead, first)
+    off = np.einsum("nrk,nsk->nrs", aside, first)
+    next_along, next_off = np.roll(along, -1, axis=-1), np.roll(off, -1, axis=-1)
+    crosses = (off > 0) != (next_off > 0)
+    part = off / np.where(crosses, off - next_off, 1.0)
+    far = along + part * (next_along - along)
+    return np.asarray(np.where(crosses & (far > 0), far, np.inf).min(axis=-1), dtype=float)
 
 
 def _unit(angle: Floats) -> Floats:

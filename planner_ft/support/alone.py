@@ -16,10 +16,9 @@ from planner_ft.support.files import nearest_folder
 
 @contextlib.contextmanager
 def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
-    """Refuse a second `work` ("a training") in `folder`, if any, beside the block.
-
-    The lock lies beside the folder, and a dead process holds none; what dead ones were `staging`
-    is removed. Raises PlannerError.
+    """Refuse a second `work` ("a training") in `folder`, if any, beside the block. The lock lies
+    beside the folder, and a dead process holds none; what dead ones were `staging` is removed.
+    Raises PlannerError.
     """
     if folder is None:
         yield
@@ -55,10 +54,7 @@ def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def staging(folder: Path) -> Iterator[Path]:
-    """A new folder beside `folder`, on the same disk, to be filled and moved into its place.
-
-    Errors of the block name files as they are to be called.
-    """
+    """A folder to fill and move into the place of `folder`, as which errors name it."""
     staged = folder.with_name(f".{folder.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
     try:
         staged.mkdir(parents=True)

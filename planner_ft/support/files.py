@@ -26,24 +26,30 @@ def indented_json(value: Any) -> str:
 
 
 @contextlib.contextmanager
+def writing(path: Path | str, way: str, what: str = "cannot be written") -> Iterator[None]:
+    """An OSError of the block becomes a PlannerError on `path`, `what` happened and the way out."""
+    try:
+        yield
+    except OSError as error:
+        raise PlannerError(f"{path}: {what} ({error.strerror or error}); {way}") from error
+
+
+@contextlib.contextmanager
 def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
     """A temporary file beside `path` that replaces it when the block ends without an exception.
-
     Raises PlannerError when the folder cannot be written or the disk is full; `path` is then as it
     was.
     """
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with open(temporary, mode, encoding=None if "b" in mode else "utf-8") as stream:
-            yield stream
-            stream.flush()
-            os.fsync(stream.fileno())
-        temporary.replace(path)
-    except OSError as error:
-        reason, way_out = error.strerror or error, "choose another folder or free some space"
-        raise PlannerError(f"{path}: cannot be written ({reason}); {way_out}") from error
+        with writing(path, "choose another folder or free some space"):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with open(temporary, mode, encoding=None if "b" in mode else "utf-8") as stream:
+                yield stream
+                stream.flush()
+                os.fsync(stream.fileno())
+            temporary.replace(path)
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
@@ -77,12 +83,8 @@ def check_writable(folder: Path) -> None:
 def make_folder(folder: Path) -> None:
     """Make the folder if need be. Raises PlannerError when it cannot be made or written."""
     check_writable(folder)
-    try:
+    with writing(f"--out {folder}", "give another --out", "cannot be made"):
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise PlannerError(
-            f"--out {folder}: cannot be made ({error.strerror}); give another --out"
-        ) from None
 
 
 def write_text(path: Path | str, text: str) -> None:
@@ -118,9 +120,7 @@ def read_text(path: Path | str) -> str:
 
 
 def decode_json(text: str, *, unique: bool = False) -> tuple[Any, int, str | None]:
-    """(value, 0, None), or (None, line, problem): syntax, NaN, nesting, half a surrogate pair and,
-    if `unique`, a key that stands twice in an object.
-    """
+    """(value, 0, None), or (None, line, problem), if `unique` also a key that stands twice."""
     try:
         hook = _unique if unique else None
         value = json.loads(text, parse_constant=_no_number, object_pairs_hook=hook)
@@ -167,10 +167,7 @@ def read_toml(path: Path | str) -> dict[str, Any]:
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:
-    """(line number, value, None) or (line number, None, problem) of every line that is not blank.
-
-    Raises PlannerError when the file is missing, unreadable or not UTF-8.
-    """
+    """(line number, value, None or problem) of every line not blank. Raises PlannerError."""
     # Split on "\n" alone: str.splitlines would also cut at U+2028, which JSON strings may hold.
     for number, line in enumerate(read_text(path).split("\n"), 1):
         if line.strip():

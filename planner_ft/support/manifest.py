@@ -70,9 +70,8 @@ def build_manifest(
     inputs: dict[str, Path | str] | None = None,
     **more: Any,
 ) -> dict[str, Any]:
-    """A manifest of `kind` ("data", "train", "bench", ...); `inputs` maps a role to a file.
-
-    `more` adds fields of that kind of run (outputs, time, tokens, device, ...).
+    """A manifest of `kind` ("data", "train", "bench", ...); `inputs` maps a role to a file. `more`
+    adds fields of that kind of run (outputs, time, tokens, device, ...).
     """
     files = (inputs or {}).items()
     return {

@@ -41,9 +41,8 @@ TEX = {
 
 @dataclass(frozen=True)
 class Cell:
-    """A figure as text, its interval, and a mark that says whether a difference is real.
-
-    `bounds` are (value, low, high) as numbers for CSV; `heat` (0 to 6) shades the cell.
+    """A figure as text, its interval, and a mark that says whether a difference is real. `bounds`
+    are (value, low, high) as numbers for CSV; `heat` (0 to 6) shades the cell.
     """
 
     text: str
@@ -68,18 +67,17 @@ class TableRow:
 
 @dataclass(frozen=True)
 class Table:
-    """A table with a file name, a title, and a caption that says how to read it.
-
-    `columns` are the headings behind `corner`; the first `texts` of them hold words and stand left.
+    """A table: headings of `columns` behind `corner`, of which the first `texts` hold words and
+    stand left; with a file name, a title, and a caption that says how to read it where it has them.
     """
 
-    name: str
-    title: str
-    caption: str
     corner: str
-    columns: tuple[str, ...]
-    rows: tuple[TableRow, ...]
+    columns: Sequence[str]
+    rows: Sequence[TableRow]
     texts: int = 0
+    name: str = ""
+    title: str = ""
+    caption: str = ""
 
 
 def row(heading: str, *cells: Cell | str, kind: RowKind = "measured") -> TableRow:
@@ -155,7 +153,7 @@ def csv_table(table: Table) -> str:
     """
     body = [one for one in table.rows if one.kind != "section"]
     parts = [_parts([one.cells[index] for one in body]) for index in range(len(table.columns))]
-    columns = list(zip(table.columns, parts, strict=True))
+    columns = zip(table.columns, parts, strict=True)
     sections = ["section"] if len(body) < len(table.rows) else []
     head = [f"{name}{part}" for name, of_column in columns for part in of_column]
     lines: list[list[str]] = [[*sections, table.corner, "kind", *head]]

@@ -11,9 +11,7 @@ if TYPE_CHECKING:
 
 
 def plain(text: str, kept: str = "") -> str:
-    """The text with characters that a terminal would obey, or cannot show, as JSON's escapes; those
-    in `kept` stay, and so does JSON what it means.
-    """
+    """The text, what a terminal would obey or cannot show as JSON's escapes, but for `kept`."""
     if text.isprintable():
         return text
     # Of what is not printable, the wider and narrower spaces do nothing.

@@ -23,9 +23,9 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import sync_folder
+from planner_ft.support.files import sync_folder, writing
 from planner_ft.training.model import adapter_tensors, make_optimizer, set_adapter
-from planner_ft.training.report import Report
+from planner_ft.training.report import GO_ON, Report
 from planner_ft.training.samples import Sample
 from planner_ft.training.settings import TrainSettings
 
@@ -73,10 +73,7 @@ class TrainState:
 
 @dataclass
 class Run:
-    """A model in training. `pad` is the id that fills batches; layers compute in `dtype`.
-
-    `best` is the best adapter so far, None for the current one.
-    """
+    """A model in training; `pad` fills batches, layers compute in `dtype`, `best`: None if last."""
 
     settings: TrainSettings
     model: Any
@@ -121,17 +118,13 @@ def save_checkpoint(run: Run) -> None:
     values = {"state": asdict(run.state), "scaler": run.scaler.state_dict(), "optimizer": moments}
     values["sha256"] = hashlib.sha256(content).hexdigest()
     try:
-        temporary.mkdir(parents=True)
-        _write(temporary / "tensors.safetensors", content)
-        _write(temporary / "state.json", json.dumps(values).encode())
-        shutil.rmtree(target, ignore_errors=True)
-        temporary.rename(target)
-        sync_folder(folder)
-    except OSError as error:
-        raise PlannerError(
-            f"{target}: the checkpoint cannot be written ({error.strerror or error}); free some"
-            " space and run the same command with --resume"
-        ) from error
+        with writing(target, GO_ON, "the checkpoint cannot be written"):
+            temporary.mkdir(parents=True)
+            _write(temporary / "tensors.safetensors", content)
+            _write(temporary / "state.json", json.dumps(values).encode())
+            shutil.rmtree(target, ignore_errors=True)
+            temporary.rename(target)
+            sync_folder(folder)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
     for older in checkpoints(run.output)[:-KEPT]:
@@ -139,10 +132,7 @@ def save_checkpoint(run: Run) -> None:
 
 
 def load_newest_checkpoint(run: Run) -> str:
-    """Go back to the newest checkpoint that is whole; return a sentence on it.
-
-    Raises PlannerError when there are only damaged ones.
-    """
+    """Go back to the newest whole checkpoint and say so. Raises PlannerError without one."""
     for path in (run.output / CHECKPOINTS).glob(f".{PREFIX}*.tmp"):
         shutil.rmtree(path, ignore_errors=True)
     damaged: dict[Path, Exception] = {}

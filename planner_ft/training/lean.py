@@ -16,42 +16,43 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import linear
 
-LONGEST = 1024
+LONGEST = 2048
 """Positions in a row at most: weights of attention are kept for the backward pass."""
 
 
-def lean_states(model: Any, input_ids: Tensor, positions: Tensor | None) -> Tensor | None:
+def lean_states(
+    model: Any, input_ids: Tensor, positions: Tensor | None, shared: int = 0
+) -> Tensor | None:
     """The decoder's last hidden states (rows, width, hidden) of a PEFT model, as autocast to
-    bfloat16 would give them; None where the model is not one that this module computes.
-
-    `positions` as in `Batch`: samples that share a row do not see each other.
+    bfloat16 would give them; None where the model is not one that this module computes. `positions`
+    and `shared` as in `Batch`: samples that share a row do not see each other.
     """
     base = model.get_base_model()
-    if not _fits(model, base, input_ids):
+    if input_ids.shape[1] > LONGEST or not is_lean(model, input_ids.device):
         return None
     body, (rows, width) = base.get_decoder(), input_ids.shape
     where = torch.arange(width).expand(rows, width) if positions is None else positions
     states = body.embed_tokens(input_ids).flatten(0, 1).float()
     cosine, sine = (part[:, :, None] for part in body.rotary_emb(states, where))
-    hidden = _hidden(where)
+    hidden = _hidden(where, shared if positions is not None else 0)
     for layer in body.layers:
         attention, feed = layer.self_attn, layer.mlp
         mixed = _project(_norm(states, layer.input_layernorm), attention, "q_proj k_proj v_proj")
         mixed = mixed.view(rows, width, 3, -1, attention.head_dim)
-        found = _Attention.apply(mixed, cosine, sine, hidden, attention.scaling)  # type: ignore[no-untyped-call]
+        found = _applied(_Attention, mixed, cosine, sine, hidden, attention.scaling)
         states = states + _project(found, attention, "o_proj")
         opened = _project(_norm(states, layer.post_attention_layernorm), feed, "gate_proj up_proj")
-        states = states + _project(_Gated.apply(opened), feed, "down_proj")  # type: ignore[no-untyped-call]
+        states = states + _project(_applied(_Gated, opened), feed, "down_proj")
     return _norm(states, body.norm).view(rows, width, -1)
 
 
-def _fits(model: Any, base: Any, input_ids: Tensor) -> bool:
+def is_lean(model: Any, device: torch.device) -> bool:
     """Whether every projection of a Llama has a plain adapter on a dense bfloat16 matrix."""
-    if input_ids.device.type != "cpu" or input_ids.shape[1] > LONGEST:
+    if device.type != "cpu":
         return False
     known = getattr(model, "_planner_ft_lean", None)
     if known is None:
-        known = model._planner_ft_lean = _is_lean(base)
+        known = model._planner_ft_lean = _is_lean(model.get_base_model())
     return bool(known)
 
 
@@ -85,8 +86,7 @@ def _project(inputs: Tensor, part: nn.Module, names: str) -> Tensor:
     drop = first.lora_dropout["default"]
     share = drop.p if isinstance(drop, nn.Dropout) and first.training else 0.0
     pairs = [one[key].weight for m in modules for one in (m.lora_A, m.lora_B) for key in one]
-    projected: Tensor = _Projection.apply(inputs, weight, first.scaling["default"], share, *pairs)  # type: ignore[no-untyped-call]
-    return projected
+    return _applied(_Projection, inputs, weight, first.scaling["default"], share, *pairs)
 
 
 def _joined(part: Any, names: str, modules: Sequence[Any]) -> Tensor:
@@ -97,17 +97,23 @@ def _joined(part: Any, names: str, modules: Sequence[Any]) -> Tensor:
     return kept[names]  # type: ignore[no-any-return]
 
 
-def _hidden(positions: Tensor) -> Tensor:
+def _hidden(positions: Tensor, shared: int) -> Tensor:
     """Minus infinity where a key is later than a query or of another sample, (rows, 1, w, w)."""
-    width, sample = positions.shape[1], (positions == 0).cumsum(1)
+    width, sample = positions.shape[1], (positions == shared).cumsum(1)
     later = torch.ones(width, width, dtype=torch.bool).triu(1)
-    closed = later | (sample[:, :, None] != sample[:, None])
+    of_all = sample[:, None] == 0
+    closed = later | (sample[:, :, None] != sample[:, None]) & ~of_all
     return torch.zeros(closed.shape, dtype=torch.bfloat16).masked_fill_(closed, -torch.inf)[:, None]
 
 
 def _norm(states: Tensor, norm: Any) -> Tensor:
-    normalised: Tensor = _Norm.apply(states, norm.weight.detach(), norm.variance_epsilon)  # type: ignore[no-untyped-call]
-    return normalised
+    return _applied(_Norm, states, norm.weight.detach(), norm.variance_epsilon)
+
+
+def _applied(function: Any, *values: Any) -> Tensor:
+    """`function.apply`, which torch gives no type."""
+    found: Tensor = function.apply(*values)
+    return found
 
 
 class _Norm(torch.autograd.Function):

@@ -16,6 +16,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import peak_memory
 from planner_ft.training.batches import Batch, collate, epoch_steps
 from planner_ft.training.checkpoint import JUDGED, Answer, Run, save_checkpoint
+from planner_ft.training.lean import LONGEST, is_lean
 from planner_ft.training.model import (
     adapter_parameters,
     adapter_tensors,
@@ -70,10 +71,8 @@ def learning_rate(settings: TrainSettings, step: int, total: int) -> float:
 
 
 def train_loop(run: Run) -> None:
-    """Train to the end; then the model holds the best (or last) adapter.
-
-    Raises InterruptedRunError after Ctrl-C, and PlannerError when the loss is not finite or a file
-    cannot be written.
+    """Train to the end; then the model holds the best (or last) adapter. Raises InterruptedRunError
+    after Ctrl-C, and PlannerError when the loss is not finite or a file cannot be written.
     """
     run.model.train()
     state, settings, saved = run.state, run.settings, time.monotonic()
@@ -118,8 +117,10 @@ def _step(run: Run, indices: list[list[int]]) -> None:
     rate = learning_rate(run.settings, state.step, run.total_steps)
     for group in run.optimizer.param_groups:
         group["lr"] = rate
+    together = LONGEST if is_lean(run.model, run.device) else 0
     batches = [
-        collate([run.train[index] for index in batch], run.pad, packed=packed) for batch in indices
+        collate([run.train[index] for index in batch], run.pad, packed=packed, together=together)
+        for batch in indices
     ]
     count = sum(len(batch.targets) for batch in batches)
     parts = []

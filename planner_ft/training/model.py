@@ -36,9 +36,8 @@ def cpu_threads(settings: TrainSettings, parameters: int) -> int:
 
 
 def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
-    """A PeftModel with a new LoRA adapter in float32, which names `reference` as its base.
-
-    Raises PlannerError when `target_modules` fits no layer.
+    """A PeftModel with a new LoRA adapter in float32, which names `reference` as its base. Raises
+    PlannerError when `target_modules` fits no layer.
     """
     from peft import LoraConfig, get_peft_model
 
@@ -76,9 +75,8 @@ def uses_gradient_checkpointing(settings: TrainSettings, parameters: int) -> boo
 
 
 def packs(model: Any) -> bool:
-    """Whether samples may share a row, kept apart by their positions in every layer.
-
-    transformers derives the mask from restarting positions for these attention implementations.
+    """Whether samples may share a row, kept apart by their positions in every layer. transformers
+    derives the mask from restarting positions for these attention implementations.
     """
     config = model.get_base_model().config
     return (
@@ -112,16 +110,15 @@ def autocast(device: torch.device, dtype: torch.dtype) -> torch.autocast:
 
 
 def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
-    """Cross-entropy summed over the batch's completion tokens, a float32 scalar.
-
-    Layers compute in `dtype`. Logits exist for completion positions alone; many are computed in
-    chunks, which the backward pass computes again.
+    """Cross-entropy summed over the batch's completion tokens, a float32 scalar. Layers compute in
+    `dtype`. Logits exist for completion positions alone; many are computed in chunks, which the
+    backward pass computes again.
     """
     base = model.get_base_model()
     head = base.get_output_embeddings()
     places = {} if batch.positions is None else {"position_ids": batch.positions}
     with autocast(batch.input_ids.device, dtype):
-        states = lean_states(model, batch.input_ids, batch.positions)
+        states = lean_states(model, batch.input_ids, batch.positions, batch.shared)
         if states is None:
             output = base.get_decoder()(input_ids=batch.input_ids, use_cache=False, **places)
             states = output.last_hidden_state
@@ -197,7 +194,6 @@ def memory_levers(settings: TrainSettings, parameters: int, longest: int) -> str
 
 def unpack(model: Any) -> int:
     """Replace 4-bit layers by dense ones with the same weights if memory allows; return how many.
-
     bitsandbytes unpacks a layer in every pass; on a CPU at batch size 1 that takes as long as
     multiplying. Training computes with the very same numbers, in four times the memory.
     """

@@ -18,8 +18,8 @@ from planner_ft.support.resources import peak_memory
 from planner_ft.training.checkpoint import CHECKPOINTS, PREFIX, Run
 from planner_ft.training.loop import means
 from planner_ft.training.model import adapter_parameters
-from planner_ft.training.report import LOG, TRACKED, plot_losses, read_log
-from planner_ft.training.samples import digests, tests_warnings
+from planner_ft.training.report import GO_ON, LOG, TRACKED, plot_losses, read_log
+from planner_ft.training.samples import tests_warnings
 
 if TYPE_CHECKING:
     from planner_ft.training.preflight import Prepared
@@ -71,10 +71,7 @@ def folder_problem(output: Path, *, overwrite: bool, resume: bool) -> str | None
 
 
 def begin(output: Path, fingerprint: Values) -> None:
-    """Record a new run and remove the files of an earlier one; other files stay.
-
-    In this order a run that is killed meanwhile leaves a folder that --resume starts again.
-    """
+    """Record a new run, then remove an earlier one's files: a kill leaves what resumes."""
     for path in (output / CHECKPOINTS).glob(f"{PREFIX}*"):
         shutil.rmtree(path)
     write_run(output, fingerprint, "running")
@@ -94,11 +91,10 @@ def is_unfinished(output: Path, fingerprint: Values) -> bool:
     stored = read_json(path)
     if not isinstance(stored, dict):
         raise PlannerError(f"{path}: a JSON object is expected; start again with --overwrite")
-    differences = differing(stored.get("fingerprint", stored), fingerprint)
-    if differences:
+    if found := differing(stored.get("fingerprint", stored), fingerprint):
+        way = "undo that, or start again with --overwrite"
         raise PlannerError(
-            f"--resume: the run in {output} was another one ({'; '.join(differences)});"
-            " undo that, or start again with --overwrite"
+            f"--resume: the run in {output} was another one ({'; '.join(found)}); {way}"
         )
     return path.name != MANIFEST
 
@@ -123,9 +119,8 @@ def differing(stored: Values, current: Values) -> list[str]:
 def write_result(
     request: TrainRequest, prepared: Prepared, run: Run, fingerprint: Values
 ) -> Values:
-    """Write the adapter folder and return its manifest, which is written last.
-
-    Raises PlannerError when a file cannot be written; the checkpoints are then still there.
+    """Write the adapter folder and, last, its manifest, which is returned. Raises PlannerError when
+    a file cannot be written; the checkpoints are then still there.
     """
     output, temporary = request.output, request.output / CHECKPOINTS / ".result"
     try:
@@ -138,14 +133,12 @@ def write_result(
             path.replace(output / path.name)
         temporary.rmdir()
     except Exception as error:  # safetensors and tokenizers raise their own kinds for a full disk
-        raise PlannerError(
-            f"{output}: the adapter cannot be written ({error}); free some space and run the same"
-            " command with --resume"
-        ) from error
+        why = f"the adapter cannot be written ({error})"
+        raise PlannerError(f"{output}: {why}; {GO_ON}") from error
     title = f"{request.candidate.row_name}, {request.level} level"
     plot_losses(read_log(output / LOG), output, title)
-    seen = [digests(one, request.level, request.vocabulary) for one in prepared.splits]
-    write_text(output / SEEN, "".join(f"{digest}\n" for of_split in seen for digest in of_split))
+    seen = (digest for split in prepared.splits for digest in split.digests())
+    write_text(output / SEEN, "".join(f"{digest}\n" for digest in seen))
     manifest = run_manifest(request, prepared, run, fingerprint)
     write_text(output / "README.md", model_card(manifest))
     write_json(output / MANIFEST, manifest)
@@ -161,8 +154,9 @@ def run_manifest(
 ) -> Values:
     """The manifest of a finished run: its inputs, settings, outputs and result."""
     candidate, settings, output = request.candidate, request.settings, request.output
-    splits = {"training": prepared.train, "validation": prepared.validation}
-    inputs: dict[str, Path | str] = {role: one.path for role, one in splits.items() if one}
+    both = {"training": prepared.train, "validation": prepared.validation}
+    splits = {role: split for role, split in both.items() if split}
+    inputs: dict[str, Path | str] = {role: split.path for role, split in splits.items()}
     if request.corrections:
         inputs["corrections"] = request.corrections
     files = [output / name for name in (WEIGHTS, CONFIG, SEEN, "tokenizer.json", LOG)]
@@ -177,7 +171,7 @@ def run_manifest(
         is_standin=candidate.is_standin,
         base_reference=candidate.reference,
         licence=candidate.licence,
-        samples={role: len(split.samples) for role, split in splits.items() if split},
+        samples={role: len(split.samples) for role, split in splits.items()},
         departures=[*request.resolved.departures(request.level), *tests_warnings(prepared.tests)],
         tests_trained_on=prepared.tests,
         result=_result(run, output / WEIGHTS),
@@ -222,12 +216,8 @@ def model_card(manifest: Values) -> str:
     """README.md of the adapter that a training manifest describes, in the Hub's format."""
     import jinja2
 
-    environment = jinja2.Environment(
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        undefined=jinja2.StrictUndefined,
-    )
+    blocks: Values = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, **blocks)
     environment.filters |= {"json": json.dumps, "name": lambda path: Path(path).name}
     values = {"s": manifest["configuration"], "r": manifest["result"], "licences": LICENCES}
     card = read_text(Path(__file__).parent / "card.md.jinja")

@@ -12,7 +12,7 @@ from planner_ft.candidates.loading import compute_dtype, load_tokenizer, resolve
 from planner_ft.candidates.memory import adapter_parameters, device_memory, training_memory
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import nearest_folder
+from planner_ft.support.files import nearest_folder, writing
 from planner_ft.support.resources import memory_size
 from planner_ft.training.model import LOGIT_VALUES, memory_levers, uses_gradient_checkpointing
 from planner_ft.training.output import folder_problem
@@ -21,15 +21,10 @@ from planner_ft.training.request import TrainRequest
 from planner_ft.training.samples import (
     Sample,
     Split,
-    augmented,
-    contradictions,
     read_split,
-    render_split,
     shortened,
     tests_warnings,
     tests_within,
-    with_corrections,
-    with_variants,
 )
 
 if TYPE_CHECKING:
@@ -66,10 +61,7 @@ class Prepared:
 
 @dataclass
 class Finding:
-    """The outcome of one check: a line of text, problems, notes, warnings for standard error.
-
-    `skipped`: it could not run.
-    """
+    """The outcome of one check, or that it was skipped; warnings are for standard error."""
 
     title: str
     text: str = ""
@@ -81,15 +73,9 @@ class Finding:
 
 def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding]:
     """Yield the outcome of each check and fill `prepared`. Problems of the run raise nothing."""
-    checks = {
-        "candidate": check_candidate,
-        "data": check_data,
-        "rendering": check_rendering,
-        "special tokens": check_tokens,
-        "output": check_output,
-        "memory": check_memory,
-    }
-    for title, check in checks.items():
+    titles = ("candidate", "data", "rendering", "special tokens", "output", "memory")
+    checks = (check_candidate, check_data, check_rendering, check_tokens, check_output)
+    for title, check in zip(titles, (*checks, check_memory), strict=True):
         finding = Finding(title)
         try:
             check(request, prepared, finding)
@@ -124,17 +110,17 @@ def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> N
     train = read_split(request.train_file, level, vocabulary, problems, settings.max_samples)
     if train and request.corrections:
         own = len(train.records)
-        train = with_corrections(train, request.corrections, level, vocabulary, problems)
+        train = train.corrected(request.corrections, problems)
         count = len(train.records) - own
         added.append(f"{count} of the training samples from {request.corrections}")
     if train:
-        problems += shortened(contradictions(train, level, vocabulary))
+        problems += shortened(train.contradictions())
     if train and settings.vary:
         own = len(train.records)
-        train = with_variants(train, level, vocabulary, settings.seed, settings.vary)
+        train = train.varied(settings.seed, settings.vary)
         added.append(f"{len(train.records) - own} of the training samples with other values")
     if train and settings.augment:
-        train = augmented(train, level, vocabulary, settings.seed, settings.augment)
+        train = train.augmented(settings.seed, settings.augment)
         added.append(f"{settings.augment} of the training samples synthetic")
     prepared.train = train
     if request.validation_file:
@@ -151,20 +137,21 @@ def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> N
             note = f"{prompts} (first: {shared[0]}); the validation loss will flatter"
             finding.notes.append(note)
     if not problems:
-        prepared.tests = tests_within(prepared.splits, level, vocabulary)
+        prepared.tests = tests_within(prepared.splits)
     finding.warnings += tests_warnings(prepared.tests)
 
 
 def check_rendering(request: TrainRequest, prepared: Prepared, finding: Finding) -> None:
     """Does every sample fit the limit whole, and is something of it trained?"""
-    level, tokenizer, vocabulary = request.level, prepared.tokenizer, request.vocabulary
+    tokenizer = prepared.tokenizer
     if tokenizer is None or not prepared.splits:
         finding.text, finding.skipped = "skipped: no tokenizer or no data", True
         return
+    shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
     if prepared.train:
-        prepared.train = render_split(prepared.train, level, tokenizer, vocabulary)
+        prepared.train = prepared.train.rendered(tokenizer, **shown)
     if prepared.validation:
-        prepared.validation = render_split(prepared.validation, level, tokenizer, vocabulary)
+        prepared.validation = prepared.validation.rendered(tokenizer, **shown)
     most, dimensions = request.settings.max_length, request.candidate.dimensions
     limit = min(most, dimensions.context) if dimensions else most
     holds = f"{request.candidate.name} takes no more"
@@ -206,9 +193,8 @@ def check_tokens(request: TrainRequest, prepared: Prepared, finding: Finding) ->
         f"{len(ids)} samples {problem} (first: {ids[0]})" for problem, ids in kinds.items()
     ]
     begins = any(bos in sample.rendered.input_ids[:1] for sample in samples)
-    begin = (
-        f"one {tokenizer.bos_token} at the beginning" if begins else "no beginning-of-text token"
-    )
+    one = f"one {tokenizer.bos_token} at the beginning"
+    begin = one if begins else "no beginning-of-text token"
     ends = f"every answer ends with a trained {tokenizer.convert_ids_to_tokens(end)}; {begin}"
     finding.text = "see below" if finding.problems else ends
 
@@ -233,12 +219,10 @@ def check_output(request: TrainRequest, prepared: Prepared, finding: Finding) ->
     output, dimensions = request.output, request.candidate.dimensions
     if problem := folder_problem(output, overwrite=request.overwrite, resume=request.resume):
         finding.problems.append(problem)
-    try:
-        with tempfile.TemporaryFile(dir=nearest_folder(output)):
-            free = shutil.disk_usage(nearest_folder(output)).free
-    except OSError as error:
-        why = f"cannot be written ({error.strerror}); choose another folder"
-        raise PlannerError(f"--output {output}: {why}") from None
+    existing = nearest_folder(output)
+    usable = writing(f"--output {output}", "choose another folder")
+    with usable, tempfile.TemporaryFile(dir=existing):
+        free = shutil.disk_usage(existing).free
     # Adapter, best adapter and two moments in float32, three times: the oldest goes last.
     weights = adapter_parameters(dimensions, request.settings.rank) if dimensions else 0
     needed = 3 * 4 * 4 * weights + OTHER_FILES

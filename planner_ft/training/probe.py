@@ -37,10 +37,8 @@ B_DEVIATION = 0.02
 def probe_model(
     model: Any, samples: Sequence[Sample], pad: int, batch_size: int, device: Any, dtype: Any
 ) -> list[str]:
-    """Everything wrong with the model for training, which is left as it was.
-
-    The gradient step runs on the `batch_size` longest samples, so that it also shows whether
-    training fits the memory.
+    """Everything wrong with the model for training, which is left as it was. The gradient step runs
+    on the `batch_size` longest samples, so that it also shows whether training fits the memory.
     """
     by_length = sorted(samples, key=lambda sample: sample.length)
     longest = collate(by_length[-batch_size:], pad).to(device)

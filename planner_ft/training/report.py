@@ -7,8 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import atomic_writer, compact_json, write_jsonl
+from planner_ft.support.files import atomic_writer, compact_json, write_jsonl, writing
 from planner_ft.support.resources import clock, memory_size
 from planner_ft.training.settings import TrainSettings
 
@@ -16,14 +15,13 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 LOG, TRACKED = "train_log.jsonl", "logs"
+GO_ON = "free some space and run the same command with --resume"
 Record = dict[str, Any]
 """A line of the log."""
 
 
 class Report:
-    """A run's log (a line per step and per validation, flushed as it is made), the trackers of
-    `report_to`, and the console: a line that changes on a terminal, one every few steps elsewhere.
-    """
+    """A run's log (a line per step and validation, flushed), trackers, and console lines."""
 
     def __init__(
         self, console: Console, output: Path, settings: TrainSettings, name: str, step: int = 0
@@ -39,13 +37,9 @@ class Report:
 
     def record(self, values: Record) -> None:
         """Write a line of the log and tell the trackers."""
-        try:
+        with writing(self.path, GO_ON):
             self.stream.write(compact_json(values) + "\n")
             self.stream.flush()
-        except OSError as error:
-            way_out = "free some space and run the same command with --resume"
-            text = f"{self.path}: cannot be written ({error.strerror}); {way_out}"
-            raise PlannerError(text) from error
         if self.trackers:
             numbers = {key: one for key, one in values.items() if isinstance(one, int | float)}
             self.trackers.log(numbers, step=numbers.pop("step"))
@@ -121,14 +115,12 @@ def tracker_problems(settings: TrainSettings) -> list[str]:
 
 
 def plot_losses(records: list[Record], folder: Path, title: str) -> None:
-    """Write `loss.png` and `loss.svg`: training loss a step, its mean over the last thirtieth of
-    all steps, and validation loss.
-    """
+    """Write `loss.png` and `loss.svg`: training loss, its running mean, validation loss."""
     from matplotlib.figure import Figure
 
     steps = [record for record in records if "loss" in record]
     checks = [record for record in records if "validation_loss" in record]
-    at, losses = [record["step"] for record in steps], [record["loss"] for record in steps]
+    at, losses = [one["step"] for one in steps], [one["loss"] for one in steps]
     window = max(1, len(losses) // 30)
     recent = [losses[max(0, end - window) : end] for end in range(1, len(losses) + 1)]
     figure = Figure(figsize=(7, 4), layout="constrained")

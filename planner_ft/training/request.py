@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -26,9 +26,8 @@ RUN_KEYS = (
 
 @dataclass(frozen=True)
 class TrainRequest:
-    """The model, data, settings and output folder of a run.
-
-    `validation_file` is None without validation, `corrections` without added corrected plans.
+    """The model, data, settings and output folder of a run. `validation_file` is None without
+    validation, `corrections` without added corrected plans.
     """
 
     level: Level
@@ -49,10 +48,7 @@ class TrainRequest:
     def fingerprint(
         self, training: str, validation: str | None, base_weights: str
     ) -> dict[str, Any]:
-        """Everything that the learned weights depend on, with the digests of data and base.
-
-        A resumed run must have the same.
-        """
+        """All that the learned weights depend on, with digests; a resumed run has the same."""
         return {
             "level": self.level,
             "candidate": self.candidate.name,
@@ -89,9 +85,8 @@ def build_request(
     overwrite: bool = False,
     resume: bool = False,
 ) -> TrainRequest:
-    """Combine flags, recipe, the candidate's adapter settings, published ones and defaults.
-
-    `run` holds RUN_KEYS, None where not given. Raises PlannerError that lists every problem.
+    """Combine flags, recipe, the candidate's adapter settings, published ones and defaults. `run`
+    holds RUN_KEYS, None where not given. Raises PlannerError that lists every problem.
     """
     problems: list[str] = []
 
@@ -128,7 +123,7 @@ def build_request(
     if candidate and level and vocabulary:
         own = candidate.vocabulary is None or candidate.knows(vocabulary)
         label = candidate.name if own else f"{candidate.name} for another vocabulary"
-        sources.append(Source(label, asdict(candidate.adapter_defaults(level, vocabulary))))
+        sources.append(Source(label, candidate.adapter_defaults(level, vocabulary)))
     resolved = resolve_settings(level or "mission", sources, problems)
     if resolved.settings.select == "f1" and not resolved.settings.validation_answers:
         problems.append("--select f1 needs --validation-answers of at least 1")

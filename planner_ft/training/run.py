@@ -29,7 +29,7 @@ from planner_ft.training.preflight import CHECKS, Finding, Prepared, longest, ru
 from planner_ft.training.probe import probe_model
 from planner_ft.training.report import Report
 from planner_ft.training.request import TrainRequest, refusal
-from planner_ft.training.samples import Sample, Split, read_split, render_split
+from planner_ft.training.samples import Sample, read_split
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -48,18 +48,17 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
         file = request.train_file
         raise PlannerError(f"--preview-id {sample_id}: {file} holds no record of that id")
     tokenizer = load_tokenizer(request.candidate)
-    one = Split(split.path, split.sha256, found)
-    return render_split(one, request.level, tokenizer, request.vocabulary).samples[0], tokenizer
+    shown = {"with_vocabulary": request.settings.vocabulary_in_prompt}
+    return replace(split, records=found).rendered(tokenizer, **shown).samples[0], tokenizer
 
 
 def train(
     request: TrainRequest, console: Console, new_judge: NewJudge | None = None
 ) -> dict[str, Any] | None:
     """Run the checks, train, write the adapter folder and return its manifest. What `new_judge`
-    makes answers validation samples after each epoch.
-
-    None when --resume finds the run complete. Raises PlannerError for anything that the user can
-    put right, and InterruptedRunError after Ctrl-C.
+    makes answers validation samples after each epoch. None when --resume finds the run complete.
+    Raises PlannerError for anything that the user can put right, and InterruptedRunError after
+    Ctrl-C.
     """
     for text in request.resolved.departures(request.level):
         _say(console, f"note: {text}")

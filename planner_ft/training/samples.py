@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import groupby
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -52,14 +52,80 @@ class Split:
     """A data file: its digest, records and, once rendered, samples in the same order."""
 
     path: Path
-    sha256: str
+    level: Level
+    vocabulary: Vocabulary
     records: list[Record]
+    sha256: str
     samples: list[Sample] = field(default_factory=list)
 
-    def extended(self, records: list[Record], digest: str) -> Split:
+    def digests(self) -> list[str]:
+        """The digest of every record's input, by which it is known again in a test set."""
+        texts = (user_text(self.level, record, self.vocabulary) for record in self.records)
+        return list(map(input_digest, texts))
+
+    def rendered(self, tokenizer: PreTrainedTokenizerBase, **shown: Any) -> Split:
+        """The split with its samples rendered; `shown` is given to `render_sample`."""
+        known = tokenizer, self.vocabulary
+        samples = [
+            Sample(record["id"], render_sample(self.level, record, *known, **shown))
+            for record in self.records
+        ]
+        return replace(self, samples=samples)
+
+    def contradictions(self) -> Iterator[str]:
+        """Records of the same input with different plans, however a task prompt is worded."""
+        first: dict[str, Record] = {}
+        for record, digest in zip(self.records, self.digests(), strict=True):
+            known = first.setdefault(digest, record)
+            if _labels(self.level, known) != _labels(self.level, record):
+                same = f"{known['id']} and {record['id']} are the same input with different plans"
+                yield f"{self.path}: {same}; keep the right one"
+
+    def _extended(self, records: list[Record], digest: str | None = None) -> Split:
         """The split with more records behind its own; its digest covers theirs."""
-        both = sha256_text(self.sha256 + digest)
+        theirs = digest or "".join(map(compact_json, records))
+        both = sha256_text(self.sha256 + theirs)
         return replace(self, sha256=both, records=[*self.records, *records])
+
+    def corrected(self, path: Path, problems: list[str]) -> Split:
+        """With the records of `path` (`review --harvest`); its faults are added to `problems`."""
+        added = read_split(path, self.level, self.vocabulary, problems, known=self)
+        return self._extended(added.records, added.sha256) if added else self
+
+    def augmented(self, seed: int, count: int) -> Split:
+        """With `count` records of the level's generator, which holds no curated and no test sample.
+        Raises PlannerError for a vocabulary without templates.
+        """
+        from planner_ft.data.missions import sample_missions
+        from planner_ft.data.task.sampler import sample_tasks
+
+        seed += AUGMENT_SEED
+        made = sample_missions(seed, count, self.vocabulary)
+        if self.level == "task":
+            made = sample_tasks(self.vocabulary, seed, count, "train")
+        records = list(made)
+        named = [{**record, "id": f"augment-{record['id']}"} for record in records]
+        return self._extended(named, "".join(map(compact_json, records)))
+
+    def varied(self, seed: int, count: int) -> Split:
+        """With `count` copies of each record with other values where it has some; a part of them
+        goes on with another record. Raises PlannerError at task level.
+        """
+        from planner_ft.data.joining import joined
+        from planner_ft.data.varying import varied
+
+        if self.level == "task":
+            raise PlannerError("--vary is for the mission level; --augment makes samples of both")
+        made = []
+        for number, record in itertools.product(range(1, count + 1), self.records):
+            rng, longer = Random(f"{seed} {number} {record['id']}"), None
+            if rng.random() < JOINED:
+                others = rng.choices(self.records, k=PARTNERS)
+                tried = (joined(record, other, self.vocabulary, rng) for other in others)
+                longer = next(filter(None, tried), None)
+            if new := varied(longer or record, self.vocabulary, rng) or longer:
+                made.append({**new, "id": f"varied-{number}-{record['id']}"})
+        return self._extended(made)
 
 
 def read_split(
@@ -70,9 +136,8 @@ def read_split(
     limit: int | None = None,
     known: Split | None = None,
 ) -> Split | None:
-    """Read a JSONL file, at most `limit` records; None when it cannot be read at all.
-
-    Everything wrong with it is added to `problems`, also ids that `known` holds already.
+    """Read a JSONL file, at most `limit` records; None when it cannot be read at all. Everything
+    wrong with it is added to `problems`, also ids that `known` holds already.
     """
     if not path.is_file():
         command = f"`plannerft gen-data --level {level}`"
@@ -100,7 +165,7 @@ def read_split(
     if not records and not found:
         found.append(f"{path}: holds no records")
     problems.extend(shortened(found))
-    return Split(path, sha256_file(path), records)
+    return Split(path, level, vocabulary, records, sha256_file(path))
 
 
 def record_problem(value: Any, level: Level, vocabulary: Vocabulary) -> str | None:
@@ -125,22 +190,18 @@ def input_problem(value: Any, level: Level) -> str | None:
     return None
 
 
-def digests(split: Split, level: Level, vocabulary: Vocabulary) -> list[str]:
-    """The digest of every record's input, by which it is known again in a test set."""
-    return [input_digest(user_text(level, record, vocabulary)) for record in split.records]
-
-
-def tests_within(splits: Sequence[Split], level: Level, vocabulary: Vocabulary) -> dict[str, str]:
+def tests_within(splits: Sequence[Split]) -> dict[str, str]:
     """The known test sets that share inputs with the splits, and how many: "25 of 25"."""
-    used = {digest for split in splits for digest in digests(split, level, vocabulary)}
+    if not splits:
+        return {}
+    level, vocabulary = splits[0].level, splits[0].vocabulary
+    used = {digest for split in splits for digest in split.digests()}
     found: dict[str, tuple[str, str]] = {}
-    known = known_tests(level, splits[0].path.parent, vocabulary) if splits else ()
-    for path in known:
+    for path in known_tests(level, splits[0].path.parent, vocabulary):
         values = (value for _line, value, _problem in iterate_jsonl(path))
         records = [one for one in values if one and input_problem(one, level) is None]
-        of_test = Split(path, sha256_file(path), records)
-        shared = sum(digest in used for digest in digests(of_test, level, vocabulary))
-        if shared:
+        of_test = Split(path, level, vocabulary, records, sha256_file(path))
+        if shared := sum(digest in used for digest in of_test.digests()):
             found.setdefault(of_test.sha256, (str(path), f"{shared} of {len(records)}"))
     return dict(found.values())
 
@@ -154,83 +215,9 @@ def tests_warnings(tests: Mapping[str, str]) -> list[str]:
     ]
 
 
-def with_corrections(
-    split: Split, path: Path, level: Level, vocabulary: Vocabulary, problems: list[str]
-) -> Split:
-    """The split with the records of `path`, as `plannerft review --harvest` writes them, behind.
-
-    Everything wrong with the file is added to `problems`.
-    """
-    added = read_split(path, level, vocabulary, problems, known=split)
-    return split.extended(added.records, added.sha256) if added else split
-
-
-def contradictions(split: Split, level: Level, vocabulary: Vocabulary) -> Iterator[str]:
-    """Records of the same input with different plans; how a task prompt is worded is no difference."""
-    first: dict[str, Record] = {}
-    for record, digest in zip(split.records, digests(split, level, vocabulary), strict=True):
-        known = first.setdefault(digest, record)
-        if _labels(level, known) != _labels(level, record):
-            same = f"{known['id']} and {record['id']} are the same input with different plans"
-            yield f"{split.path}: {same}; keep the right one"
-
-
 def _labels(level: Level, record: Record) -> list[Record]:
     entries: list[Record] = record["expected"][list_key(level)]
     return [{key: one for key, one in entry.items() if key != "task_prompt"} for entry in entries]
-
-
-def augmented(split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int) -> Split:
-    """The split with `count` synthetic records behind its own.
-
-    The level's generator makes them, which holds no curated and no test sample. Raises
-    PlannerError for a vocabulary without templates.
-    """
-    from planner_ft.data.missions import sample_missions
-    from planner_ft.data.task.sampler import sample_tasks
-
-    seed += AUGMENT_SEED
-    if level == "task":
-        made = list(sample_tasks(vocabulary, seed, count, "train"))
-    else:
-        made = list(sample_missions(seed, count, vocabulary))
-    named = [{**record, "id": f"augment-{record['id']}"} for record in made]
-    return split.extended(named, "".join(compact_json(record) for record in made))
-
-
-def with_variants(
-    split: Split, level: Level, vocabulary: Vocabulary, seed: int, count: int
-) -> Split:
-    """The split with `count` copies of each record behind its own, with other values where it has
-    some; a part of them goes on with another record. Raises PlannerError at task level.
-    """
-    from planner_ft.data.joining import joined
-    from planner_ft.data.varying import varied
-
-    if level == "task":
-        raise PlannerError("--vary is for the mission level; --augment makes samples of both")
-    made = []
-    for number in range(1, count + 1):
-        for record in split.records:
-            rng, longer = Random(f"{seed} {number} {record['id']}"), None
-            if rng.random() < JOINED:
-                others = rng.choices(split.records, k=PARTNERS)
-                tried = (joined(record, other, vocabulary, rng) for other in others)
-                longer = next(filter(None, tried), None)
-            if new := varied(longer or record, vocabulary, rng) or longer:
-                made.append({**new, "id": f"varied-{number}-{record['id']}"})
-    return split.extended(made, "".join(compact_json(record) for record in made))
-
-
-def render_split(
-    split: Split, level: Level, tokenizer: PreTrainedTokenizerBase, vocabulary: Vocabulary
-) -> Split:
-    """The split with its samples rendered."""
-    samples = [
-        Sample(record["id"], render_sample(level, record, tokenizer, vocabulary))
-        for record in split.records
-    ]
-    return replace(split, samples=samples)
 
 
 def shortened(problems: Iterable[str]) -> list[str]:
@@ -241,9 +228,8 @@ def shortened(problems: Iterable[str]) -> list[str]:
 
 
 def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
-    """The sample as the model sees it: prompt dim, completion green, special tokens reversed.
-
-    The trained part stands in ⟦ ⟧, so that it shows without colour.
+    """The sample as the model sees it: prompt dim, completion green, special tokens reversed. The
+    trained part stands in ⟦ ⟧, so that it shows without colour.
     """
     from rich.text import Text
 
@@ -255,7 +241,7 @@ def preview_text(sample: Sample, tokenizer: PreTrainedTokenizerBase) -> Text:
         (bool(mask), position if token in special else None)
         for position, (token, mask) in enumerate(zip(ids, masks, strict=True))
     ]
-    for (mask, alone), run in groupby(range(len(ids)), key=kinds.__getitem__):
+    for (mask, alone), run in itertools.groupby(range(len(ids)), key=kinds.__getitem__):
         if mask != trained:
             text.append("⟦" if mask else "⟧", "bold")
             trained = mask

@@ -57,6 +57,7 @@ class TrainSettings:
     max_samples: int | None = None
     augment: int = 0
     vary: int = 0
+    vocabulary_in_prompt: bool = False
     max_steps: int | None = None
     select: Select = "loss"
     validation_answers: int = 25
@@ -131,9 +132,8 @@ class Resolved:
 
 
 def resolve_settings(level: Level, sources: Iterable[Source], problems: list[str]) -> Resolved:
-    """Settings from `sources`, the first one first, then published ones, then our defaults.
-
-    A value of None counts as not given; everything wrong is added to `problems`.
+    """Settings from `sources`, the first one first, then published ones, then our defaults. A value
+    of None counts as not given; everything wrong is added to `problems`.
     """
     values: dict[str, Any] = {}
     origin = dict.fromkeys(FIELDS, "default")

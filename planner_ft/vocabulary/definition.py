@@ -133,6 +133,11 @@ class Vocabulary:
         return {skill.name: skill for skill in self.skills}
 
     @property
+    def named(self) -> dict[str, str]:
+        """Name and digest, as manifests have them."""
+        return {"name": self.name, "sha256": self.sha256}
+
+    @property
     def bundled(self) -> bool:
         """Whether the definition ships with the package."""
         return self.path is not None and self.path.parent == BUNDLED

@@ -1,11 +1,15 @@
-"""Limits of a mission: their canonical sentences in NAME.limits.toml, written and read back."""
+"""Limits of a mission: their canonical sentences in NAME.limits.toml, written and read back.
+
+A limit holds for the whole mission, or for the tasks that its sentence ends with: "The vehicle goes
+no faster than 1 m/s during SubseaCableTrack."
+"""
 
 from __future__ import annotations
 
 import functools
 import re
 import string
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -30,6 +34,7 @@ READ = {
 }
 """How the values of a limit are written, by name: positions and numbers, else words."""
 NUMBERS = ("distance", "speed", "duration")
+DURING, AND = " during ", " and "
 
 
 @dataclass(frozen=True)
@@ -57,11 +62,18 @@ Limits = Mapping[str, LimitKind]
 
 @dataclass(frozen=True)
 class Limit:
-    """One limit: its kind, its values by name, and the sentence that it was read from."""
+    """One limit: its kind, its values by name, the sentence that it was read from, and the titles
+    of the tasks that it holds for (none: all).
+    """
 
     kind: str
     values: dict[str, Any]
     text: str
+    titles: tuple[str, ...] = ()
+
+    def holds_for(self, title: str) -> bool:
+        """Whether it is a limit of tasks of this title."""
+        return not self.titles or title in self.titles
 
 
 @functools.lru_cache(maxsize=16)
@@ -71,9 +83,14 @@ def load_limits(vocabulary: Vocabulary) -> Limits:
     return {kind: _kind(kind, entry, vocabulary) for kind, entry in raw.items()}
 
 
-def sentence(kind: str, values: Mapping[str, Any], limits: Limits) -> str:
-    """The limit as one of the mission plan's constraints: metres, seconds, m/s, [x, y]."""
-    return _written(limits[kind].sentences, values)
+def sentence(
+    kind: str, values: Mapping[str, Any], limits: Limits, titles: Iterable[str] = ()
+) -> str:
+    """The limit as one of the mission plan's constraints: metres, seconds, m/s, [x, y]; `titles`
+    are the tasks that it holds for where it does not hold for all.
+    """
+    text, scope = _written(limits[kind].sentences, values), AND.join(dict.fromkeys(titles))
+    return f"{text.removesuffix('.')}{DURING}{scope}." if scope else text
 
 
 def prompt_sentence(kind: str, values: Mapping[str, Any], limits: Limits) -> str:
@@ -84,11 +101,13 @@ def prompt_sentence(kind: str, values: Mapping[str, Any], limits: Limits) -> str
 def read_limit(text: str, limits: Limits) -> Limit | None:
     """The limit of a canonical sentence; None for any other sentence."""
     line = " ".join(text.split())
+    line, _during, scope = line.partition(DURING)
+    titles = tuple(scope.removesuffix(".").split(AND)) if scope else ()
     for kind, known in limits.items():
         for reader in known.readers:
             if found := reader.fullmatch(line):
                 values = {name: _value(name, words) for name, words in found.groupdict().items()}
-                return Limit(kind, values, text)
+                return Limit(kind, values, text, titles)
     return None
 
 

@@ -25,7 +25,7 @@ from planner_ft.benchmark.curve.units import Curve, begin, prepare, run_units
 from planner_ft.benchmark.results import Measured, System, assemble
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.cli.app import app
-from planner_ft.report.curve import write_figure
+from planner_ft.report.pictures import write_figure
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.files import compact_json, read_json, read_jsonl, write_json, write_jsonl
 from planner_ft.training.request import build_request

@@ -9,10 +9,9 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.demands import DEFAULT, demand_row, load_demands
-from planner_ft.benchmark.field.cases import Case
+from planner_ft.benchmark.field.cases import DEMANDS, Case, load_demands
 from planner_ft.benchmark.field.checks import Outcome
-from planner_ft.benchmark.field.run import judge
+from planner_ft.benchmark.field.run import Demands, Row, judge
 from planner_ft.cli.app import app
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
@@ -40,15 +39,16 @@ def planned(_case: Case) -> Outcome:
 def test_what_the_vehicle_adds_is_counted_apart_from_the_agents(tmp_path: Path) -> None:
     path = tmp_path / "demands.jsonl"
     path.write_text(json.dumps(RECORD) + "\n")
-    cases = load_demands(path, USV)
+    cases = load_demands([path], USV)
     judged = judge(cases, planned, USV, lambda _label, _done, _total: None, "")
-    row = demand_row(("embedded", "lora"), judged, USV)
-    assert [(one["skill"], one["agents"], one["plan"]) for one in row.demands] == [
+    row = Row("embedded", "lora", judged, USV)
+    assert [(one["skill"], one["agents"], one["plan"]) for one in Demands().lines(row)] == [
         ("GetSeabedDepth", False, True),
         ("SetStreamRecording", False, False),
     ]
-    assert [rate.value for rate in row.rates().values()] == [0, 0.5, 0]
-    assert (row.records, row.warned) == (1, 1)
+    assert [rate.value for rate in Demands().rates(row).values()] == [0, 0.5, 0]
+    found = Demands().record(row)
+    assert (found["records"], found["warned"]) == (1, 1)
 
 
 @pytest.mark.parametrize(
@@ -66,12 +66,12 @@ def test_a_bad_record_is_named_by_file_and_line(tmp_path: Path, record: Any, sai
     path = tmp_path / "demands.jsonl"
     path.write_text(json.dumps(RECORD) + "\n" + json.dumps(record) + "\n")
     with pytest.raises(PlannerError) as error:
-        load_demands(path, USV)
+        load_demands([path], USV)
     assert str(error.value).startswith(f"{path}:2: ") and said in str(error.value)
 
 
 def test_both_agents_are_scored_from_the_shell(tmp_path: Path) -> None:
-    assert len(load_demands(DEFAULT, USV)) == 20
+    assert len(load_demands([DEMANDS], USV)) == 20
     words = ["bench", "--level", "both", "--limit", "1", "--out", str(tmp_path)]
     done = CliRunner().invoke(app, words)
     assert done.exit_code == 0, done.output

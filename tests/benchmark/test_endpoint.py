@@ -75,7 +75,7 @@ def test_a_server_is_asked_greedily_with_the_prompts_of_local_candidates(
     server: ChatServer, settings: Any, tmp_path: Path
 ) -> None:
     results = run_bench(settings())
-    row = results.row("tiny", "base")
+    row = next(row for row in results.rows if row.key == "tiny base")
     assert (row.n, row.metrics["f1"].value, row.metrics["strict_valid"].value) == (COUNT, 1.0, 1.0)
     request = server.requests[0]
     assert (
@@ -265,7 +265,8 @@ def test_a_question_too_long_for_the_server_is_an_empty_plan(
         return asked(body) == "go to 2 2"
 
     server.act = too_long
-    row = run_bench(settings(latency_samples=0)).row("tiny", "base")
+    results = run_bench(settings(latency_samples=0))
+    row = next(row for row in results.rows if row.key == "tiny base")
     record = next(
         line for line in lines(tmp_path / "out" / "predictions.jsonl") if line["id"] == "m2"
     )

@@ -11,9 +11,17 @@ import numpy as np
 import pytest
 
 from planner_ft.benchmark.catalogue import Metric
-from planner_ft.benchmark.paired import ENUMERATED, exact_mcnemar, exact_swaps, holm, paired, swaps
+from planner_ft.benchmark.paired import (
+    ENUMERATED,
+    adjusted,
+    exact_mcnemar,
+    exact_swaps,
+    holm,
+    paired,
+    swaps,
+    verdict,
+)
 from planner_ft.benchmark.statistics import RESAMPLES, Estimate
-from planner_ft.benchmark.verdicts import adjusted, verdict
 
 RATE, MEAN, RATIO = (
     Metric("right", "rate"),

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.metrics.alignment import plan_entries
-from planner_ft.benchmark.results import Results, System, score_system
-from planner_ft.benchmark.samples import Sample
+from planner_ft.benchmark.results import Measured, Results, System, score_system
+from planner_ft.benchmark.samples import BenchData, Sample
 from planner_ft.benchmark.tables import tables
 from planner_ft.facts import read_input
 from planner_ft.support.tables import markdown_table
@@ -27,9 +27,9 @@ def scored(change: Any) -> tuple[Results, list[dict[str, Any]]]:
     lines = {
         record["id"]: {"output": change(record["expected"]) or "not a plan"} for record in RECORDS
     }
-    row, scores = score_system(
-        "mission", System("mine", "lora", "mine"), SAMPLES, [(lines, {})], USV, seed=0
-    )
+    data = BenchData(Path("d"), "", "mission", tuple(SAMPLES), frozenset())
+    measured = Measured(System("mine", "lora", "mine"), lines)
+    row, scores = score_system(data, [measured], USV, 0)
     return Results("mission", {}, (row,), {}, tuple(scores)), scores
 
 
@@ -156,14 +156,9 @@ def test_task_level_has_no_replay_and_no_task_prompts() -> None:
         "parameters": {},
         "expected": {"skill_sequence": [step]},
     }
-    row, scores = score_system(
-        "task",
-        System("mine", "lora", "mine"),
-        [Sample("a", "a", record)],
-        [({"a": {"output": record["expected"]}}, {})],
-        USV,
-        seed=0,
-    )
+    data = BenchData(Path("d"), "", "task", (Sample("a", "a", record),), frozenset())
+    measured = Measured(System("mine", "lora", "mine"), {"a": {"output": record["expected"]}})
+    row, scores = score_system(data, [measured], USV, 0)
     assert (
         row.metrics["executable"].value,
         row.metrics["slots_in_prompt"].value,

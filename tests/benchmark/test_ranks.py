@@ -10,8 +10,8 @@ import os
 import subprocess
 from pathlib import Path
 
-from planner_ft.benchmark.ranks import Ranks
-from planner_ft.benchmark.records import RecordLog
+from planner_ft.benchmark.folder import RecordLog
+from planner_ft.benchmark.runner import Ranks
 from planner_ft.benchmark.suite.units import command
 
 NAME = "Llama-3.2-1B-Instruct"

@@ -16,11 +16,11 @@ import typer
 from rich.console import Console
 from typer.testing import CliRunner
 
+from planner_ft.benchmark.folder import RecordLog
+from planner_ft.benchmark.layout import print_warnings
 from planner_ft.benchmark.plan import make_plan
-from planner_ft.benchmark.records import RecordLog
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.terminal import print_warnings
 from planner_ft.cli.bench import bench, score
 from planner_ft.data.leakage import input_digest
 from planner_ft.decoding import engine as engine_module

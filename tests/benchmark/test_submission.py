@@ -308,7 +308,7 @@ def test_predictions_of_a_stand_in_stay_marked(tmp_path: Path, data: Path) -> No
 def test_scoring_imports_no_torch() -> None:
     code = (
         "import planner_ft.cli.bench, planner_ft.benchmark.submission, planner_ft.benchmark.tables,"
-        " planner_ft.benchmark.terminal, sys;sys.exit(any(name in sys.modules for name in ('torch',"
+        " planner_ft.benchmark.layout, sys;sys.exit(any(name in sys.modules for name in ('torch',"
         " 'transformers', 'scipy', 'datasets')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

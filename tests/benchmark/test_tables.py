@@ -9,11 +9,10 @@ from typing import Any
 from rich.console import Console
 
 from planner_ft.benchmark.catalogue import METRICS
-from planner_ft.benchmark.published import published_rows
+from planner_ft.benchmark.layout import print_results, published_rows
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.tables import render_tables
-from planner_ft.benchmark.terminal import print_results
 
 
 def results(

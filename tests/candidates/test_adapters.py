@@ -50,13 +50,7 @@ def adapter(trained: Path, tmp_path: Path) -> Path:
 
 def test_an_adapter_loads_on_its_base_and_changes_the_output(models: Path, adapter: Path) -> None:
     candidate = resolve_candidate("Llama-3.2-1B")
-    info = check_adapter(adapter, candidate, level="mission", vocabulary=load_vocabulary())
-    assert (info.rank, info.level, info.candidate, info.vocabulary) == (
-        4,
-        "mission",
-        "Llama-3.2-1B",
-        "usv",
-    )
+    check_adapter(adapter, candidate, level="mission", vocabulary=load_vocabulary())
     ids = torch.arange(8).reshape(1, 8)
     with torch.no_grad():
         plain = load_model(candidate, device="cpu")(input_ids=ids).logits
@@ -92,7 +86,7 @@ def test_an_adapter_of_a_stand_in_does_not_fit_the_real_candidate(
 def test_an_adapter_of_other_weights_of_the_same_name_is_refused(
     adapter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from planner_ft.candidates.standins import make_standin
+    from scripts.make_standins import make_standin
 
     make_standin("Llama-3.2-1B", tmp_path, seed=1)
     monkeypatch.setenv("PLANNERFT_MODELS", str(tmp_path))
@@ -142,7 +136,7 @@ def test_a_plain_peft_adapter_fits_the_base_that_it_names(
     models: Path, adapter: Path, reference: str
 ) -> None:
     plain_peft(adapter, reference)
-    assert check_adapter(adapter, resolve_candidate("Llama-3.2-1B"), level="task").level is None
+    check_adapter(adapter, resolve_candidate("Llama-3.2-1B"), level="task")
     with pytest.raises(
         PlannerError, match=r"was trained on .*Llama-3.2-1B.*, not on Llama-3.2-1B-Instruct"
     ):
@@ -185,7 +179,7 @@ def append(path: Path, text: str) -> None:
 
 def test_an_adapter_with_the_files_that_training_wrote_passes(models: Path, adapter: Path) -> None:
     record_outputs(adapter)
-    assert check_adapter(adapter, resolve_candidate("Llama-3.2-1B")).rank == 4
+    check_adapter(adapter, resolve_candidate("Llama-3.2-1B"))
 
 
 DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {

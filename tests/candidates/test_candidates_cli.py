@@ -40,6 +40,8 @@ def test_the_table_says_what_fits_and_how_to_get_it(
     assert "3.21 B" in row
     assert "12 6*" in row
     assert "gated" in row
+    embedded = next(line for line in output.splitlines() if line.startswith("embedded"))
+    assert embedded.split()[-1] == "package"
     assert 'hf download meta-llama/Llama-3.2-3B-Instruct --exclude "original/*"' in output
     assert "accept the licence" in output
 

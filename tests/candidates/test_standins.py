@@ -12,11 +12,11 @@ import pytest
 
 from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer
-from planner_ft.candidates.standins import make_all_standins, make_standin
 from planner_ft.prompts import render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_tree
 from planner_ft.vocabulary import load_vocabulary
+from scripts.make_standins import make_all_standins, make_standin
 
 LLAMA = [
     "Llama-3.2-1B",

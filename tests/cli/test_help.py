@@ -30,7 +30,7 @@ def options() -> dict[str, dict[str, Any]]:
 
 def test_every_option_has_help() -> None:
     found = options()
-    assert len(found) == 18
+    assert len(found) == 19
     assert [
         (name, key) for name, given in found.items() for key, item in given.items() if not item.help
     ] == []
@@ -43,4 +43,4 @@ def test_every_help_text_belongs_to_an_option() -> None:
         keys += [key for value in texts.values() if isinstance(value, dict) for key in value]
         assert set(keys) <= set(given), name
     assert set(TEXTS["about"]) <= set(options())
-    assert set(TEXTS) <= {"about", "shared", *options()}
+    assert set(TEXTS) <= {"about", "shared", "options", *options()}

@@ -76,6 +76,17 @@ def test_records_are_of_the_schema_and_splits_share_no_text(vehicle):
     assert len(lines) >= (200 if vehicle is USV else 40)
 
 
+def test_a_limit_of_one_task_stands_in_its_prompt_alone():
+    made = clause("no faster than {speed} there", "speed speed scope=task", "phrase")
+    command, plan = "Go to {P1}, then survey {T1 located}.", "Transit P1; SurveyTarget T1"
+    assert not list(with_clause(made, command, plan))
+    for _text, expected, _beside in with_clause(made):
+        (limit,) = expected["constraints"]
+        assert limit.endswith(" m/s during SurveyTarget.")
+        told = [one["title"] for one in expected["tasks"] if "Go no faster" in one["task_prompt"]]
+        assert told == ["SurveyTarget"]
+
+
 @pytest.mark.parametrize(
     ("text", "plan", "problem"),
     [

@@ -5,6 +5,7 @@ give each position its numbers whatever is computed beside it.
 from __future__ import annotations
 
 import shutil
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +22,7 @@ from planner_ft.decoding.forward import (
     BLOCK,
     KEYS,
     SmallModel,
+    SmallPasses,
     attention,
     dynamic_values,
     read_forms,
@@ -185,6 +187,35 @@ def test_in_bfloat16_a_position_has_the_same_bits_in_every_pass(
     fed = passes.run([IDS[200:204], IDS[30:37], IDS[130:131], IDS[31:33]], [4, 7, 1, 2])
     expected = [one_by_one[171:175], one_by_one[1:8], one_by_one[101:102], one_by_one[2:4]]
     assert torch.equal(fed, torch.cat(expected))
+
+
+def test_what_long_prompts_have_in_common_is_computed_once(
+    toy_model: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model, alone = small(toy_model), small(toy_model)
+    computed = Counter[str]()
+    run = SmallPasses._run
+
+    def counted(self: SmallPasses, grid: Any, feeds: Any, wanted: Any) -> Tensor:
+        computed["kept" if self.model is model else "alone"] += sum(map(len, feeds))
+        return run(self, grid, feeds, wanted)
+
+    monkeypatch.setattr(SmallPasses, "_run", counted)
+    prompts = [IDS, [*IDS[:280], 5, 6, 7], [*IDS[:280], 9, 9], [8, *IDS[:200]]]
+    for prompt in prompts:
+        expected = alone.start(1).run([prompt], [2])
+        alone.last_prompt.clear()
+        passes = model.start(1)
+        assert torch.allclose(passes.run([prompt], [2]), expected, atol=1e-4)
+        assert torch.equal(passes.run([[3]], [1]).argmax(-1), _next(alone, prompt))
+        alone.last_prompt.clear()
+    whole = sum(map(len, prompts))
+    assert computed["kept"] == whole - 2 * 280 + len(prompts)
+
+
+def _next(model: SmallModel, prompt: list[int]) -> Tensor:
+    """The choice behind a prompt and the token 3."""
+    return model.start(1).run([[*prompt, 3]], [1]).argmax(-1)
 
 
 @bits

@@ -9,6 +9,7 @@ import pytest
 
 from planner_ft.document import apply
 from planner_ft.document.clearance import fence, structures, way_off, way_round
+from planner_ft.document.ontology import named_places
 from planner_ft.document.track import track
 from tests.documents import USV, document, step, task
 
@@ -140,3 +141,29 @@ def test_the_vehicles_area_is_a_fence_of_every_plan() -> None:
     within = fence({**plan, "vehicle": {**plan["vehicle"], "area": area}}, USV)
     assert within((0, 0), (40, 40)) and not within((0, 0), (60, 0))
     assert fence(plan, USV)((0, 0), (60, 0))
+
+
+def test_the_way_to_a_pass_leads_round_the_face_and_not_through_it() -> None:
+    def crosses(leg: Any) -> bool:
+        (a, b), (c, d) = leg
+        return (a - 60) * (c - 60) < 0 and -45 < b + (60 - a) / (c - a) * (d - b) < 75
+
+    given = {"side_id": "east", "length": 120, "distance": 7}
+    ends = [step("GoToXY", {"x": 67, "y": y}) for y in (75, -45)]
+    prompt = "Run along the east side of the pier at [60, 15] for 120 m, 7 m off."
+    to = task("Transit", {"target_position": [60, 15]}, [step("GoToXY", {"x": 60, "y": 15})])
+    home = task("Transit", {"target_position": [0, 0]}, [step("GoToXY", {"x": 0, "y": 0})])
+    plan = document([to, task("ParallelStructurePass", given, ends, prompt), home])
+    skills = [
+        s["navigation_skill"]["parameters"] for t in plan["tasks"] for s in t["skill_sequence"]
+    ]
+    way = [(0, 0), *((at["x"], at["y"]) for at in skills)]
+    assert (70, 15) in way and (67, 75) in way
+    assert not any(map(crosses, itertools.pairwise(way)))
+
+
+def test_a_row_of_positions_behind_things_is_of_these_things() -> None:
+    command = "Inspect the cages at 100,20, 130,20 and 160,20, then go to 50,50."
+    found = [(words, place.x) for words, place in named_places(command, USV)]
+    assert found == [("the cages", 100), ("the cages", 130), ("the cages", 160)]
+    assert len(list(named_places("Go by the buoy at 100,20, 130,20 and 160,20.", USV))) == 1

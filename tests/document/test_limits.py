@@ -39,6 +39,29 @@ def test_a_limit_is_a_filter_in_every_step_that_moves() -> None:
     assert not [one for one in plan["warnings"] if one["kind"] == "skill-value-not-said"]
 
 
+def test_a_limit_of_one_task_is_carried_into_that_task_alone() -> None:
+    cable = task("SubseaCableTrack", {"start": [50, 50]}, [step("GoToXY", {"x": 50, "y": 90})])
+    text = "The vehicle keeps at least 10 m from every obstacle during SubseaCableTrack."
+    plan = document([transit(100, 50), cable], constraints=[text])
+    assert [limit["tasks"] for limit in plan["limits"]] == [[2]]
+    filters = [one["skill_sequence"][0]["filter_skills"] for one in plan["tasks"]]
+    assert [len(own) for own in filters] == [0, 1]
+    inside = FENCE.replace("200", "60").replace(".", " during SubseaCableTrack.")
+    assert broken(inside, tasks=[cable])
+    assert len(broken(inside, tasks=[transit(100, 50), cable, transit(0, 0)])) == 1
+
+
+def test_a_limit_of_one_task_goes_into_its_prompt() -> None:
+    text = "The vehicle goes no faster than 1 m/s during SubseaCableTrack."
+    tasks = [{"title": title, "task_prompt": "Go."} for title in ("Transit", "SubseaCableTrack")]
+    told = with_limits({"tasks": tasks, "constraints": [text]}, USV)
+    prompts = [one["task_prompt"] for one in told["tasks"]]
+    assert prompts == ["Go.", "Go. Go no faster than 1 m/s."]
+    assert told["constraints"] == [text]
+    alone = with_limits({"tasks": tasks[:1], "constraints": [text]}, USV)
+    assert "no faster" in alone["tasks"][0]["task_prompt"]
+
+
 def test_a_filter_that_is_there_is_kept_when_it_is_as_strict() -> None:
     moving = transit(100, 50)
     strict = {"name": "ObstacleAvoidance", "parameters": {"min_distance": 15}}

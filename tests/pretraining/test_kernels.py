@@ -11,6 +11,7 @@ from planner_ft.pretraining.kernels import (
     ROWS,
     causal_attention,
     register_attention,
+    shared_attention,
     summed_cross_entropy,
 )
 
@@ -27,6 +28,32 @@ def test_attention_and_its_gradients_are_those_of_torch() -> None:
     theirs = nn.functional.scaled_dot_product_attention(
         query, key, value, is_causal=True, scale=0.25
     )
+    torch.testing.assert_close(ours, theirs)
+    for mine, reference in zip(
+        gradients(ours, upstream, query, key, value),
+        gradients(theirs, upstream, query, key, value),
+        strict=True,
+    ):
+        torch.testing.assert_close(mine, reference)
+
+
+def test_parts_of_a_row_attend_as_if_each_stood_alone_behind_what_it_shares() -> None:
+    torch.manual_seed(0)
+    query, key, value = (torch.randn(1, 2, 40, 16, requires_grad=True) for _ in range(3))
+    parts = torch.tensor([[0, 12, 0, 0], [12, 20, 0, 12], [20, 31, 0, 12], [31, 40, 31, 31]])
+    upstream = torch.randn(2, 40, 16)
+    ours = shared_attention(query, key, value, parts, 0.25)
+    alone = []
+    for start, end, first, last in parts.tolist():
+        seen = [*range(first, last), *range(start, end)]
+        hidden = torch.full((end - start, len(seen)), 0.0)
+        hidden[:, last - first :].masked_fill_(
+            torch.ones(end - start, end - start).triu(1) > 0, -1e9
+        )
+        own = query[:, :, start:end], key[:, :, seen], value[:, :, seen]
+        found = nn.functional.scaled_dot_product_attention(*own, attn_mask=hidden, scale=0.25)
+        alone.append(found[0])
+    theirs = torch.cat(alone, 1)
     torch.testing.assert_close(ours, theirs)
     for mine, reference in zip(
         gradients(ours, upstream, query, key, value),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from planner_ft.benchmark.metrics.alignment import plan_entries
-from planner_ft.report.differences import differences
+from planner_ft.report.answers import differences
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary("usv")

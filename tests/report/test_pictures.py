@@ -15,7 +15,7 @@ HOSTILE = "<b> $x_1$ & " + 60 * "long "
 
 
 def table(name: str, columns: tuple[str, ...], *rows: TableRow) -> Table:
-    return Table(name, name.capitalize(), "", "", columns, rows)
+    return Table("", columns, rows, name=name, title=name.capitalize())
 
 
 CHARTS = [

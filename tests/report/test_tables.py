@@ -8,7 +8,7 @@ import io
 from rich.console import Console
 
 from planner_ft.report.charts import number
-from planner_ft.report.page import templates
+from planner_ft.report.write import templates
 from planner_ft.support.tables import (
     Cell,
     Table,
@@ -22,9 +22,6 @@ from planner_ft.support.tables import (
 )
 
 TABLE = Table(
-    "t",
-    "A table",
-    "Read it.",
     "System",
     ("F1 ↑", "A & B (%)"),
     (
@@ -33,6 +30,8 @@ TABLE = Table(
         ),
         TableRow("theirs", (Cell("0.61", bounds=(0.61, None, None)), Cell("–")), "published"),
     ),
+    title="A table",
+    caption="Read it.",
 )
 
 
@@ -83,7 +82,7 @@ def test_numbers_are_short() -> None:
 
 def test_sections_head_the_rows_that_follow_in_every_form() -> None:
     rows = (row("Data", kind="section"), row("ours", "lora", figure(0.5, 0.25, 0.75, scale=100)))
-    table = Table("s", "", "", "Model", ("Configuration", "F1 (%)"), rows, texts=1)
+    table = Table("Model", ("Configuration", "F1 (%)"), rows, texts=1)
     assert "| **Data** |  |  |" in markdown_table(table).splitlines()
     assert "\\multicolumn{3}{l}{\\textit{Data}} \\\\" in latex_table(table)
     assert list(csv.DictReader(io.StringIO(csv_table(table)))) == [

@@ -330,6 +330,10 @@ def test_violations_of_fences_are_counted(run: Run) -> None:
         faults=read_faults(["current=0.5/270"]),
     )
     assert sum(one.fence_violations for one in close.results) >= 1
+    # Who was carried out and turns home comes home, instead of being kept outside.
+    assert {one.outcome for one in close.results} <= {"done", "returned"}
+    assert "returned" in {one.outcome for one in close.results}
+    assert max(one.seconds for one in close.results) < 120
 
 
 def test_bad_options_exit_with_2(

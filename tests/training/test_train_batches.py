@@ -220,3 +220,19 @@ def test_models_with_other_layers_keep_a_row_for_each_sample(tiny, monkeypatch):
 
     monkeypatch.setattr(tiny.get_base_model().config, "model_type", "mamba")
     assert not packs(tiny)
+
+
+def test_a_common_beginning_stands_once_in_rows_of_bounded_width():
+    begin = list(range(3, 103))
+    samples = [sample(str(n), [*begin, 200 + n, 7], [9] * 20) for n in range(5)]
+    batch = collate(samples, 0, together=192)
+    assert batch.shared == 100
+    assert batch.input_ids.shape[1] <= 192
+    assert len(batch.input_ids) == 2
+    assert batch.tokens == 2 * 100 + 5 * 22
+    for row, column, target in zip(batch.rows, batch.columns, batch.targets, strict=True):
+        assert target == 9
+        assert batch.positions[row, column] >= 101
+    assert collate(samples[:1], 0, together=192).shared == 0
+    few = [sample(str(n), [3, 4, 5, 200 + n, 7], [9, 9]) for n in range(5)]
+    assert collate(few, 0, together=192).shared == 0

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.training.preflight import Prepared, run_preflight
-from planner_ft.training.samples import Split, read_split, with_corrections
+from planner_ft.training.samples import Split, read_split
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()
@@ -42,29 +42,19 @@ def split(folder: Path) -> Split:
 def test_corrections_come_after_the_training_samples_and_change_the_digest(tmp_path: Path) -> None:
     problems: list[str] = []
     train = split(tmp_path)
-    both = with_corrections(
-        train, written(tmp_path / "corrections.jsonl", "c"), "mission", VOCABULARY, problems
-    )
+    both = train.corrected(written(tmp_path / "corrections.jsonl", "c"), problems)
     assert not problems and [item["id"] for item in both.records] == ["a", "b", "c"]
-    other = with_corrections(
-        train, written(tmp_path / "corrections.jsonl", "d"), "mission", VOCABULARY, problems
-    )
+    other = train.corrected(written(tmp_path / "corrections.jsonl", "d"), problems)
     assert len({train.sha256, both.sha256, other.sha256}) == 3
 
 
 def test_what_is_wrong_with_the_file_is_a_problem_of_the_run(tmp_path: Path) -> None:
     for names, problem in ((("b",), "id 'b' stands in"), (("c", "c"), "stands in line 1 already")):
         problems: list[str] = []
-        with_corrections(
-            split(tmp_path),
-            written(tmp_path / "corrections.jsonl", *names),
-            "mission",
-            VOCABULARY,
-            problems,
-        )
+        split(tmp_path).corrected(written(tmp_path / "corrections.jsonl", *names), problems)
         assert len(problems) == 1 and problem in problems[0]
     missing: list[str] = []
-    with_corrections(split(tmp_path), tmp_path / "none.jsonl", "mission", VOCABULARY, missing)
+    split(tmp_path).corrected(tmp_path / "none.jsonl", missing)
     assert len(missing) == 1 and "none.jsonl: no such file" in missing[0]
 
 

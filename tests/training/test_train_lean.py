@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import pytest
 import torch
 
@@ -14,6 +17,8 @@ from planner_ft.training.lean import lean_states
 from planner_ft.training.samples import Sample
 from planner_ft.training.settings import TrainSettings
 from planner_ft.vocabulary import load_vocabulary
+
+DRONE = Path("data/inspection_drone/mission/train.jsonl")
 
 
 @pytest.fixture(scope="module")
@@ -71,3 +76,29 @@ def test_samples_of_one_row_do_not_see_each_other(trained) -> None:
         one, two = (lean_states(model, rows, places) for rows in (ids, other))
     assert torch.equal(one[:, 3:], two[:, 3:])
     assert not torch.equal(one[:, :3], two[:, :3])
+
+
+def test_samples_that_begin_alike_share_the_beginning_and_learn_the_same(trained, curated) -> None:
+    model, tokenizer = trained
+    if model.dtype != torch.bfloat16:
+        pytest.skip("the lean layers compute in bfloat16, which this CPU does not multiply")
+    drone = load_vocabulary("inspection_drone")
+    samples = [
+        Sample(record["id"], render_sample(*known, tokenizer, drone, with_vocabulary=True))
+        for record in map(json.loads, DRONE.read_text().splitlines()[:4])
+        for known in [("mission", record)]
+    ]
+    apart, together = collate(samples, 0), collate(samples, 0, together=2048)
+    assert together.input_ids.shape[0] == 1 and together.shared > 300
+    assert together.tokens < apart.tokens / 2
+    assert sorted(together.targets.tolist()) == sorted(apart.targets.tolist())
+    found = []
+    for batch in (apart, together):
+        model.zero_grad()
+        loss = in_training.loss_sum(model, batch, torch.bfloat16)
+        loss.backward()
+        values = in_training.adapter_parameters(model).values()
+        found.append((float(loss.detach()), torch.cat([one.grad.flatten() for one in values])))
+    (loss, gradient), (shared_loss, shared_gradient) = found
+    assert shared_loss == pytest.approx(loss, rel=0.01)
+    assert float(torch.nn.functional.cosine_similarity(gradient, shared_gradient, dim=0)) > 0.99

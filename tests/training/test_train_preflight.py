@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,7 +14,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.training import preflight
 from planner_ft.training.preflight import Prepared, run_preflight
 from planner_ft.training.run import preview_sample, train
-from planner_ft.training.samples import Sample
+from planner_ft.training.samples import Sample, Split
 
 
 def findings(request):
@@ -141,24 +142,15 @@ def test_special_tokens_in_wrong_places_are_found(ids, prompt, part):
 
 
 def test_an_answer_without_trained_tokens_is_named(ask, monkeypatch):
-    original = preflight.render_split
+    original = Split.rendered
 
-    def unmasked(split, *args, **kwargs):
-        result = original(split, *args, **kwargs)
+    def unmasked(split, tokenizer, **shown):
+        result = original(split, tokenizer, **shown)
         first = result.samples[0].rendered
-        return type(result)(
-            result.path,
-            result.sha256,
-            result.records,
-            [
-                Sample(
-                    "blank",
-                    Rendered(first.input_ids, [0] * len(first.input_ids), first.prompt_length),
-                )
-            ],
-        )
+        blank = Rendered(first.input_ids, [0] * len(first.input_ids), first.prompt_length)
+        return dataclasses.replace(result, samples=[Sample("blank", blank)])
 
-    monkeypatch.setattr(preflight, "render_split", unmasked)
+    monkeypatch.setattr(Split, "rendered", unmasked)
     found = problems(ask())
     assert any("sample blank has no token that is trained" in problem for problem in found)
 

@@ -69,6 +69,18 @@ def test_every_sentence_is_read_back(vehicle) -> None:
                 assert (limit.kind, limit.values, limit.text) == (kind, given, text)
 
 
+def test_a_limit_of_some_tasks_names_them() -> None:
+    text = sentence("speed", {"speed": 1}, USV, ["SubseaCableTrack", "Transit", "Transit"])
+    assert text == "The vehicle goes no faster than 1 m/s during SubseaCableTrack and Transit."
+    limit = read_limit(text, USV)
+    assert (limit.kind, limit.values, limit.titles) == (
+        "speed",
+        {"speed": 1},
+        ("SubseaCableTrack", "Transit"),
+    )
+    assert limit.holds_for("Transit") and not limit.holds_for("KeepStation")
+
+
 @pytest.mark.parametrize(
     "text", ["The vehicle stays near [0, 0].", "Keep 70 m from it.", "", "The mission is short."]
 )

@@ -11,11 +11,10 @@ from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import Scores, by_system
 from planner_ft.benchmark.curve.units import RESULT, Curve
-from planner_ft.benchmark.paired import Paired, paired
+from planner_ft.benchmark.paired import Comparison, Paired, adjusted, paired
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.summary import OF_GROUPS, summarise
-from planner_ft.benchmark.verdicts import Comparison, adjusted
 from planner_ft.support.files import write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import NOTHING, Table, csv_table, markdown_table, row
@@ -28,9 +27,7 @@ SAMPLES: dict[Level, str] = {"mission": "commands", "task": "task inputs"}
 
 @dataclass(frozen=True)
 class Point:
-    """The figures of one size over the answers of all its adapters, families counted as such;
-    `by_seed` are the values of each adapter, `scores` the lines of scores.jsonl by sample id.
-    """
+    """Figures of one size, each adapter's values (`by_seed`), scores by sample id."""
 
     size: int
     metrics: dict[str, Estimate]
@@ -61,9 +58,7 @@ def _point(size: int, runs: Sequence[Scores]) -> Point:
 
 
 def compared(found: Sequence[Point]) -> list[list[Comparison]]:
-    """The largest size against each smaller one by F1, exact sequences and whole plans, paired by
-    sample, p adjusted after Holm over the three.
-    """
+    """The largest size against each smaller one by SHOWN, paired, p adjusted over the three."""
     *smaller, last = found
 
     def against(one: Point, name: str) -> tuple[str, str, Paired]:
@@ -81,9 +76,9 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
     step, tests = f"from {before} to {last} {what}", len(found[-1].scores)
     if better := [one for one in final if one.verdict == "better"]:
         return (
-            f"Still rising: {step} brought {'; '.join(map(_gain, better))}. {last - before} more are"
-            " worth writing: they bring about as much if the curve goes on as it is, and less if it"
-            " flattens."
+            f"Still rising: {step} brought {'; '.join(map(_gain, better))}. {last - before} more"
+            " are worth writing: they bring about as much if the curve goes on as it is, and less if"
+            " it flattens."
         )
     if any(one.verdict == "worse" for one in final):
         return f"Falling: {step} made plans worse. Check the labels before writing more {what}."
@@ -118,7 +113,7 @@ def curve_table(found: Sequence[Point], what: str) -> Table:
         figures = [METRIC[name].cell(point.metrics[name]) for name in OF_GROUPS]
         rows.append(row(str(point.size), *figures, spread))
     heads = (*(METRIC[name].title for name in OF_GROUPS), "F1 by seed")
-    return Table("learning-curve", "", "", what.capitalize(), heads, tuple(rows))
+    return Table(what.capitalize(), heads, rows)
 
 
 def write_curve(curve: Curve) -> list[Point]:
@@ -129,15 +124,10 @@ def write_curve(curve: Curve) -> list[Point]:
     how = f"95 % intervals over the answers of {curve.seeds} adapters of each size to the test set."
     write_text(curve.out / "table.md", f"{markdown_table(table)}\n{said}\n\n{how}\n")
     write_text(curve.out / "table.csv", csv_table(table))
-    record = {
-        "level": curve.request.level,
-        "data": curve.data.summary(),
-        "answer": said,
-        "points": [_json(point) for point in found],
-        "comparisons": [one.to_json() for pairs in comparisons for one in pairs],
-        "manifest": _manifest(curve),
-    }
-    write_json(curve.out / RESULT, record)
+    record: dict[str, Any] = {"level": curve.request.level, "data": curve.data.summary()}
+    record |= {"answer": said, "points": [_json(point) for point in found]}
+    record["comparisons"] = [one.to_json() for pairs in comparisons for one in pairs]
+    write_json(curve.out / RESULT, {**record, "manifest": _manifest(curve)})
     return found
 
 
@@ -151,14 +141,6 @@ def _manifest(curve: Curve) -> dict[str, Any]:
     request = curve.request
     files: dict[str, Path | str] = {"training": request.train_file, "data": curve.data.path}
     files |= {"validation": request.validation_file} if request.validation_file else {}
-    return build_manifest(
-        "learning-curve",
-        seed=SEED,
-        configuration={
-            **curve.asked(),
-            "sizes": list(curve.sizes),
-            "seeds": curve.seeds,
-            "given": curve.settings,
-        },
-        inputs=files,
-    )
+    sizes = {"sizes": list(curve.sizes), "seeds": curve.seeds, "given": curve.settings}
+    asked = {**curve.asked(), **sizes}
+    return build_manifest("learning-curve", seed=SEED, configuration=asked, inputs=files)

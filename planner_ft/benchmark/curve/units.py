@@ -1,6 +1,4 @@
-"""Learning curves: growing parts of a training set, each trained on and benchmarked, gone on with
-after a kill at any point.
-"""
+"""Learning curves: growing parts of a training set, each trained on and benchmarked, resumable."""
 
 from __future__ import annotations
 
@@ -34,7 +32,7 @@ TESTED = 4
 
 @dataclass(frozen=True)
 class Unit:
-    """Training on `size` samples with a seed (none for size 0), and the benchmark of the adapter."""
+    """Training on `size` samples (0: none) with a seed, and the benchmark of the adapter."""
 
     size: int
     seed: int
@@ -46,9 +44,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class Curve:
-    """What is trained and benchmarked: `request` is the training on the whole set, `settings` are
-    the flags of `plannerft train` that were given.
-    """
+    """`request` is the training on the whole set, `settings` the flags of `train` given."""
 
     request: TrainRequest
     train: Split
@@ -90,9 +86,7 @@ def prepare(
     limit: int | None = None,
     settings: dict[str, Any] | None = None,
 ) -> Curve:
-    """A curve, checked before anything runs; without `sizes` 0, 8, 16, ... and the whole training
-    set. Raises PlannerError.
-    """
+    """A checked curve; without `sizes` 0, 8, 16, ... and the whole set. Raises PlannerError."""
     vocabulary, problems = request.vocabulary, list[str]()
     require_folder(request.candidate)
     train = read_split(request.train_file, request.level, vocabulary, problems)
@@ -116,32 +110,26 @@ def prepare(
 
 
 def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
-    """Take the folder; whoever calls holds it. Raises PlannerError, also when an earlier curve was
-    another one.
-    """
+    """Take the folder that the caller holds. Raises PlannerError, also for another curve."""
     out, asked = curve.out, curve.asked()
-    hint = "give --resume to go on, --overwrite to start anew, or another --out"
-    folder.check_folder(out, () if resume or overwrite else (BEGUN,), hint)
+    folder.check_folder(out, () if resume or overwrite else (BEGUN,), folder.GO_ON)
     if overwrite and (out / BEGUN).is_file():
         for done in (out / RUNS).glob(f"*/{DONE}"):  # first: a kill leaves no half that looks whole
             done.unlink()
         shutil.rmtree(out / RUNS, ignore_errors=True)
     elif (out / BEGUN).is_file() and (found := differing(read_json(out / BEGUN), asked)):
         way = "undo that, or start again with --overwrite"
-        raise PlannerError(
-            f"--resume: the curve in {out} was another one ({'; '.join(found)}); {way}"
-        )
+        other = f"the curve in {out} was another one ({'; '.join(found)})"
+        raise PlannerError(f"--resume: {other}; {way}")
     (out / RESULT).unlink(missing_ok=True)
     write_json(out / BEGUN, asked)
 
 
 def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
-    """Train and benchmark every unit that is not finished, each step in a process of its own.
-
-    Raises IncompleteError when one fails: what is finished is kept.
-    """
+    """Train and benchmark missing units, a process a step. Raises IncompleteError: go on later."""
     units, begun = curve.units, time.monotonic()
-    left = {unit: _work(curve, unit) for unit in units if not _finished(curve, unit)}
+    open_units = (unit for unit in units if not (curve.folder(unit) / DONE).is_file())
+    left = {unit: _work(curve, unit) for unit in open_units}
     total = sum(left.values())
     for index, unit in enumerate(units, 1):
         if unit not in left:
@@ -162,10 +150,6 @@ def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
         del left[unit]
 
 
-def _finished(curve: Curve, unit: Unit) -> bool:
-    return (curve.folder(unit) / DONE).is_file()
-
-
 def _work(curve: Curve, unit: Unit) -> float:
     return unit.size * curve.request.settings.epochs + TESTED * len(curve.data.samples)
 
@@ -174,18 +158,14 @@ def _commands(curve: Curve, unit: Unit) -> Iterator[tuple[str, list[str]]]:
     """The steps of a unit: name and arguments of `plannerft`."""
     request, here = curve.request, curve.folder(unit)
     adapter, vocabulary = here / "adapter", str(request.vocabulary.source)
-    candidate = request.candidate
-    named = str(candidate.folder) if candidate.source == "path" else candidate.name
+    named = request.candidate.given_as
     if unit.size:
         # The samples of a size are the first ones of the same order: parts of each other.
         records = list(curve.train.records)
         Random(f"learning curve {unit.seed}").shuffle(records)
         write_jsonl(here / "train.jsonl", records[: unit.size])
-        files: dict[str, Any] = {
-            "level": request.level,
-            "candidate": named,
-            "vocabulary": vocabulary,
-        }
+        files: dict[str, Any] = {"level": request.level, "candidate": named}
+        files["vocabulary"] = vocabulary
         files |= {"train-file": here / "train.jsonl", "output": adapter, "seed": unit.seed}
         files |= {"validation-file": checked} if (checked := request.validation_file) else {}
         flags = {**files, **curve.settings}.items()

@@ -1,1 +1,1 @@
-"""Field cases: commands as operators give them, with what their plans must do and say."""
+"""Whole plans of commands by both agents: field cases, and data that commands demand."""

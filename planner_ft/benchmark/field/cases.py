@@ -1,11 +1,15 @@
-"""Reading field cases: JSON Lines, a case per line (schemas/field.schema.json)."""
+"""Reading cases, a line of JSON each: field cases (schemas/field.schema.json), and demands.
+
+A demand record is {"id", "prompt", "skills": [{"task": TITLE, "skills": [NAME, ...]}], "locate"}: a
+demand is met when some step of a task of the title has the skill.
+"""
 
 from __future__ import annotations
 
 import functools
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,22 +19,21 @@ from planner_ft.support.files import iterate_jsonl, read_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import SHAPES
 
-DEFAULT = Path("eval/field")
-"""The folder of cases that are run where no file is named."""
+CASES, DEMANDS = Path("eval/field"), Path("eval/both/demands.jsonl")
+"""The folder of cases, and the file of demands, where no file is named."""
 CHECKS = (
     *("titles", "has", "lacks", "skill", "waypoints", "visits", "never_at", "clear", "outcome"),
     *("says", "warns", "quiet", "any"),
 )
 """What an object of `expect` is told by."""
+KEYS = ("id", "prompt", "skills", "locate", "expected")
 Check = Mapping[str, Any]
+Find = Callable[[Any, Vocabulary], str | None]
 
 
 @dataclass(frozen=True)
 class Case:
-    """A command with positions of its places (metres) and an origin (degrees), and its checks.
-
-    A `danger`ous case that fails without any warning is counted apart.
-    """
+    """A command with places (metres), origin (degrees) and checks; silent `danger` counts apart."""
 
     id: str
     kind: str
@@ -43,9 +46,9 @@ class Case:
 
 def case_files(files: Sequence[Path]) -> list[Path]:
     """The files, eval/field/*.jsonl without any. Raises PlannerError when there is none."""
-    paths = list(files) or sorted(DEFAULT.glob("*.jsonl"))
+    paths = list(files) or sorted(CASES.glob("*.jsonl"))
     if not paths:
-        raise PlannerError(f"--field: there is no {DEFAULT}/*.jsonl here; name a file of cases")
+        raise PlannerError(f"--field: there is no {CASES}/*.jsonl here; name a file of cases")
     return paths
 
 
@@ -53,27 +56,44 @@ def load_cases(files: Sequence[Path], vocabulary: Vocabulary) -> list[Case]:
     """The cases of files. Raises PlannerError with file and line."""
     cases: dict[str, Case] = {}
     for path in files:
-        before = len(cases)
-        for number, value, problem in iterate_jsonl(path):
-            problem = problem or _problem(value, vocabulary)
-            case = None if problem or value is None else _case(value)
-            if case and case.id in cases:
-                problem = f"id {case.id!r} is given twice; give every case its own"
-            if problem or case is None:
-                raise PlannerError(f"{path}:{number}: {problem or 'null is no case'}")
-            cases[case.id] = case
-        if len(cases) == before:
-            raise PlannerError(f"{path}: holds no cases")
+        for number, value in _checked(path, vocabulary, _case_problem):
+            if value["id"] in cases:
+                way = "is given twice; give every case its own"
+                raise PlannerError(f"{path}:{number}: id {value['id']!r} {way}")
+            origin = tuple(value["origin"]) if "origin" in value else None
+            known = {"expect": tuple(value["expect"]), "locate": _places(value), "origin": origin}
+            cases[value["id"]] = Case(**{**value, **known})
     return list(cases.values())
 
 
-def _case(value: dict[str, Any]) -> Case:
-    locate = {name: (x, y) for name, (x, y) in value.get("locate", {}).items()}
-    origin = tuple(value["origin"]) if "origin" in value else None
-    return Case(**{**value, "expect": tuple(value["expect"]), "locate": locate, "origin": origin})
+def load_demands(files: Sequence[Path], vocabulary: Vocabulary) -> list[Case]:
+    """The records of files as cases, a check per demand. Raises PlannerError with file and line."""
+    cases = []
+    for path in files:
+        for _number, record in _checked(path, vocabulary, _demand_problem):
+            expect = tuple(_demanded(record.get("skills", [])))
+            cases.append(Case(record["id"], "both", record["prompt"], expect, _places(record)))
+    if not any(case.expect for case in cases):
+        raise PlannerError(f"{files[0]}: demands no skills; give records the key skills")
+    return cases
 
 
-def _problem(value: Any, vocabulary: Vocabulary) -> str | None:
+def _checked(path: Path, vocabulary: Vocabulary, find: Find) -> Iterator[tuple[int, Any]]:
+    """(line, value) of a file. Raises PlannerError at the first problem that `find` names."""
+    number = 0
+    for number, value, problem in iterate_jsonl(path):
+        if problem := problem or find(value, vocabulary):
+            raise PlannerError(f"{path}:{number}: {problem}")
+        yield number, value
+    if not number:
+        raise PlannerError(f"{path}: holds no cases")
+
+
+def _places(value: dict[str, Any]) -> dict[str, tuple[float, float]]:
+    return {name: (x, y) for name, (x, y) in value.get("locate", {}).items()}
+
+
+def _case_problem(value: Any, vocabulary: Vocabulary) -> str | None:
     """What is wrong with a case: its form, a name that the vehicle has not, or an expression."""
     from jsonschema.exceptions import best_match
 
@@ -84,30 +104,49 @@ def _problem(value: Any, vocabulary: Vocabulary) -> str | None:
     if found := best_match(_validator().iter_errors(value)):
         where = found.json_path.removeprefix("$").lstrip(".") or "the case"
         return f"{where}: {found.message[:200]}"
-    return next(
-        (text for check in value["expect"] for text in check_problems(check, vocabulary)), None
-    )
+    return next((text for one in value["expect"] for text in check_problems(one, vocabulary)), None)
+
+
+def _demand_problem(value: Any, vocabulary: Vocabulary) -> str | None:
+    if not isinstance(value, dict) or not all(isinstance(value.get(key), str) for key in KEYS[:2]):
+        return "a record with the texts id and prompt is expected"
+    if unknown := [key for key in value if key not in KEYS]:
+        return f"unknown key {unknown[0]!r}; there is {', '.join(KEYS)}"
+    entries = value.get("skills", [])
+    if not isinstance(entries, list) or not all(map(_is_demand, entries)):
+        return 'skills must be a list of {"task": TITLE, "skills": [NAME, ...]}'
+    checks = [*({"under": entry["task"]} for entry in entries), *_demanded(entries)]
+    problems = (text for check in checks for text in check_problems(check, vocabulary))
+    return next((f"skills: {text}" for text in problems), None)
+
+
+def _demanded(entries: Sequence[dict[str, Any]]) -> list[dict[str, str]]:
+    return [{"skill": name, "under": one["task"]} for one in entries for name in one["skills"]]
+
+
+def _is_demand(entry: Any) -> bool:
+    if not isinstance(entry, dict) or entry.keys() != {"task", "skills"}:
+        return False
+    names = entry["skills"] if isinstance(entry["skills"], list) else [None]
+    return all(isinstance(name, str) for name in (entry["task"], *names))
 
 
 def check_problems(check: Check, vocabulary: Vocabulary) -> Iterator[str]:
     """Names of a check that the vehicle has not, and bad regular expressions."""
     for inner in check.get("any", ()):
         yield from check_problems(inner, vocabulary)
-    titles = [
-        *check.get("titles", ()),
-        *(check[key] for key in ("has", "lacks", "under") if key in check),
-    ]
-    yield from (
-        f"{title!r} is no task of this vehicle" for title in titles if title not in vocabulary.task
-    )
-    owner = vocabulary.task.get(check.get("has", ""))
+    named = [check[key] for key in ("has", "lacks", "under") if key in check]
+    for title in (*check.get("titles", ()), *named):
+        if title not in vocabulary.task:
+            yield f"{title!r} is no task of this vehicle"
+    owner: Any = vocabulary.task.get(check.get("has", ""))
     if "skill" in check:
-        owner = vocabulary.skill.get(check["skill"])  # type: ignore[assignment]
+        owner = vocabulary.skill.get(check["skill"])
         if owner is None:
             yield f"{check['skill']!r} is no skill of this vehicle"
-    if owner is not None:
-        unknown = [name for name in check.get("with", {}) if name not in owner.by_name]
-        yield from (f"with: {name!r} is no parameter there" for name in unknown)
+    for name in check.get("with", {}) if owner else ():
+        if name not in owner.by_name:
+            yield f"with: {name!r} is no parameter there"
     for key in ("says", "warns"):
         try:
             re.compile(check.get(key, ""))

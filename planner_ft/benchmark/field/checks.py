@@ -17,8 +17,7 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import is_number, is_position, step_skills
 
 Point = tuple[float, float]
-Step = Mapping[str, Any]
-
+PLACED = {"never_at", "clear", "visits", "outcome"}
 RELATIVE, LEAST = 0.02, 0.011
 """How far a number may be from the wanted one: a share of it, and at least so much."""
 POSITION, VISITED, AT, SLACK = 0.6, 1.5, 1.0, 0.5
@@ -57,27 +56,23 @@ def passes(check: Check, outcome: Outcome, vocabulary: Vocabulary) -> bool:
     """Whether a plan, or the refusal to plan, passes a check."""
     if "any" in check:
         return any(passes(one, outcome, vocabulary) for one in check["any"])
-    for key, texts in (
-        ("says", outcome.texts()),
-        ("warns", [outcome.error or "", *outcome.warnings]),
-    ):
-        if key in check:
-            return re.search(check[key], "\n".join(texts), re.IGNORECASE) is not None
+    heard = {"says": outcome.texts(), "warns": [outcome.error or "", *outcome.warnings]}
+    for key in heard.keys() & check.keys():
+        return re.search(check[key], "\n".join(heard[key]), re.IGNORECASE) is not None
+    points = waypoints(outcome, vocabulary) if PLACED & check.keys() else []
     if "quiet" in check:
         return outcome.error is None and len(outcome.warnings) <= int(check["quiet"])
     if "never_at" in check:
-        return all(
-            math.dist(point, check["never_at"]) > AT for point in waypoints(outcome, vocabulary)
-        )
+        return all(math.dist(point, check["never_at"]) > AT for point in points)
     if "clear" in check:
         x, y, away = check["clear"]
-        return _distance((x, y), waypoints(outcome, vocabulary), vocabulary) >= float(away) - SLACK
+        return _distance((x, y), points, vocabulary) >= float(away) - SLACK
     if "lacks" in check:
         return all(task["title"] != check["lacks"] for task in outcome.tasks)
-    return outcome.error is None and _does(check, outcome, vocabulary)
+    return outcome.error is None and _does(check, outcome, points, vocabulary)
 
 
-def _does(check: Check, outcome: Outcome, vocabulary: Vocabulary) -> bool:
+def _does(check: Check, outcome: Outcome, points: list[Point], vocabulary: Vocabulary) -> bool:
     """Checks of what only a plan can do."""
     if "titles" in check:
         return bool([task["title"] for task in outcome.tasks] == check["titles"])
@@ -87,13 +82,11 @@ def _does(check: Check, outcome: Outcome, vocabulary: Vocabulary) -> bool:
     if "waypoints" in check:
         return len(waypoints(outcome, vocabulary, check["under"])) == int(check["waypoints"])
     if "visits" in check:
-        return _visits(check["visits"], iter(waypoints(outcome, vocabulary)))
+        return _visits(check["visits"], iter(points))
     if "outcome" in check:
-        return _ends(check["outcome"], outcome, vocabulary)
-    steps = [
-        step for task in outcome.tasks if task["title"] == check["under"] for step in _steps(task)
-    ]
-    hits = [_has_skill(step, check) for step in steps]
+        return _ends(check["outcome"], outcome, points, vocabulary)
+    tasks = (task for task in outcome.tasks if task["title"] == check["under"])
+    hits = [_has_skill(step, check) for task in tasks for step in _steps(task)]
     return bool(hits) and (all(hits) if check.get("on") == "all" else any(hits))
 
 
@@ -102,14 +95,14 @@ def waypoints(outcome: Outcome, vocabulary: Vocabulary, title: str | None = None
     found = []
     for task in (task for task in outcome.tasks if title in (None, task["title"])):
         for skill in (step["navigation_skill"] for step in _steps(task)):
-            names = [parameter.name for parameter in vocabulary.skill[skill["name"]].coordinates]
-            if names:
+            known = vocabulary.skill[skill["name"]].coordinates
+            if names := [parameter.name for parameter in known]:
                 x, y = (skill["parameters"][name] for name in names)
                 found.append((x, y))
     return found
 
 
-def _steps(task: Mapping[str, Any]) -> list[Step]:
+def _steps(task: Mapping[str, Any]) -> list[Any]:
     return list(task.get("skill_sequence") or ())
 
 
@@ -125,17 +118,13 @@ def _visits(places: list[Any], points: Iterator[Point]) -> bool:
     return all(any(math.dist(point, place) <= VISITED for point in points) for place in places)
 
 
-def _ends(wanted: Any, outcome: Outcome, vocabulary: Vocabulary) -> bool:
+def _ends(wanted: Any, outcome: Outcome, points: list[Point], vocabulary: Vocabulary) -> bool:
     if wanted == "dock":
         last = vocabulary.task.get(outcome.tasks[-1]["title"]) if outcome.tasks else None
-        return last is not None and (
-            last.docks or (last.arrival, last.pattern) == ("none", "visual")
-        )
-    points = waypoints(outcome, vocabulary)
-    return (
-        bool(points)
-        and math.dist(points[-1], vocabulary.home if wanted == "home" else wanted) <= AT
-    )
+        visual = last is not None and (last.arrival, last.pattern) == ("none", "visual")
+        return visual or (last is not None and last.docks)
+    place = vocabulary.home if wanted == "home" else wanted
+    return bool(points) and math.dist(points[-1], place) <= AT
 
 
 def _distance(place: Point, points: list[Point], vocabulary: Vocabulary) -> float:
@@ -143,9 +132,8 @@ def _distance(place: Point, points: list[Point], vocabulary: Vocabulary) -> floa
     from shapely import LineString
     from shapely import Point as Dot
 
-    return (
-        float(LineString([vocabulary.home, *points]).distance(Dot(place))) if points else math.inf
-    )
+    legs = [vocabulary.home, *points]
+    return float(LineString(legs).distance(Dot(place))) if points else math.inf
 
 
 def _fits(given: Mapping[str, Any], wanted: Mapping[str, Any]) -> bool:
@@ -159,9 +147,8 @@ def _same(value: Any, wanted: Any) -> bool:
     if is_position(wanted):
         return is_position(value) and math.dist(value, wanted) <= POSITION
     if isinstance(wanted, list):
-        if not isinstance(value, list) or len(value) != len(wanted):
-            return False
-        return all(map(_same, value, wanted))
+        alike = isinstance(value, list) and len(value) == len(wanted)
+        return alike and all(map(_same, value, wanted))
     if is_number(wanted):
         return is_number(value) and abs(value - wanted) <= max(RELATIVE * abs(wanted), LEAST)
     return bool(value == wanted)

@@ -1,23 +1,30 @@
-"""Running field cases through planners, and how many come out right, by kind."""
+"""Cases run through planners: right ones by kind of case, and by the data that is demanded."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.field.cases import Case
+from planner_ft.benchmark.field.cases import Case, load_cases, load_demands
 from planner_ft.benchmark.field.checks import Outcome, passes
-from planner_ft.benchmark.folder import RESULTS
-from planner_ft.benchmark.statistics import wilson
+from planner_ft.benchmark.folder import RESULTS, SCORES, check_folder
+from planner_ft.benchmark.statistics import Estimate, clustered_rate, wilson
+from planner_ft.planning import Planner
+from planner_ft.planning.settings import PlanSettings
 from planner_ft.support.files import write_json, write_jsonl, write_text
-from planner_ft.support.tables import Table, TableRow, figure, markdown_table, row
+from planner_ft.support.manifest import build_manifest
+from planner_ft.support.tables import Table, TableRow, markdown_table, row
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import step_skills
 
-PLANS, TABLE = "plans.jsonl", "table.md"
-FILES = (RESULTS, PLANS, TABLE)
+TABLE = "table.md"
+WARNING = "data-not-planned"
+MET = ("agents", "plan")
+Record = dict[str, Any]
 Plan = Callable[[Case], Outcome]
+Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
@@ -36,45 +43,127 @@ class Judged:
     def dangerous(self) -> bool:
         return bool(self.failed) and self.case.danger and self.outcome.silent
 
-    def as_json(self) -> dict[str, Any]:
-        verdict = {"right": self.right, "dangerous_and_silent": self.dangerous}
-        said = {"warnings": self.outcome.warnings, "error": self.outcome.error}
-        return {
-            "id": self.case.id,
-            "kind": self.case.kind,
-            **verdict,
-            "failed": self.failed,
-            **said,
-        }
-
 
 @dataclass(frozen=True)
-class FieldRow:
+class Row:
     """All cases in one configuration of a candidate."""
 
     candidate: str
     configuration: str
     judged: tuple[Judged, ...]
+    vocabulary: Vocabulary
 
     @property
     def name(self) -> str:
         return f"{self.candidate} {self.configuration}"
 
-    def kinds(self) -> dict[str, list[Judged]]:
+    def named(self) -> Record:
+        return {"candidate": self.candidate, "configuration": self.configuration}
+
+
+class Field:
+    """Field cases: right ones by kind, and those that are dangerous and silent."""
+
+    kind, log, load = "field", "plans.jsonl", staticmethod(load_cases)
+
+    def lines(self, one: Row) -> Iterator[Record]:
+        """The plan documents."""
+        for judged in one.judged:
+            yield {"id": judged.case.id, **one.named(), **asdict(judged.outcome)}
+
+    def record(self, one: Row) -> Record:
+        kinds = {kind: _counts(some) for kind, some in self._kinds(one)}
+        cases = []
+        for judged in one.judged:
+            found: Record = {"id": judged.case.id, "kind": judged.case.kind, "right": judged.right}
+            found |= {"dangerous_and_silent": judged.dangerous, "failed": judged.failed}
+            said = {"warnings": judged.outcome.warnings, "error": judged.outcome.error}
+            cases.append({**found, **said})
+        return {**one.named(), **_counts(one.judged), "kinds": kinds, "cases": cases}
+
+    def _kinds(self, one: Row) -> Iterator[tuple[str, list[Judged]]]:
         """The cases by kind, in the order of the file."""
-        found: dict[str, list[Judged]] = {}
-        for one in self.judged:
-            found.setdefault(one.case.kind, []).append(one)
-        return found
+        for kind in dict.fromkeys(judged.case.kind for judged in one.judged):
+            yield kind, [judged for judged in one.judged if judged.case.kind == kind]
 
-    def as_json(self) -> dict[str, Any]:
-        kinds = {kind: counts(some) for kind, some in self.kinds().items()}
-        named = {"candidate": self.candidate, "configuration": self.configuration}
-        cases = [one.as_json() for one in self.judged]
-        return {**named, **counts(self.judged), "kinds": kinds, "cases": cases}
+    def table(self, rows: Sequence[Row]) -> Table:
+        """Right, of and the rate by kind of case; the last row of each configuration counts all."""
+        lines: list[TableRow] = []
+        for one in rows:
+            lines.append(row(one.name, kind="section"))
+            for kind, some in (*self._kinds(one), ("all", one.judged)):
+                found = _counts(some)
+                share = Estimate(**found["rate"]).cell(scale=100, decimals=0)
+                silent = str(found["dangerous_and_silent"])
+                lines.append(row(kind, str(found["right"]), str(found["of"]), share, silent))
+        columns = ("right", "of", "% [95 %]", "dangerous and silent")
+        caption = "Wilson intervals. Dangerous and silent: a dangerous case that failed without a"
+        return Table("kind", columns, lines, title="Field cases.", caption=f"{caption} warning.")
+
+    def below(self, rows: Sequence[Row]) -> str:
+        """A line per case that failed: its command and the checks."""
+        every = (one for of_row in rows for one in of_row.judged if one.failed)
+        return "\n" + "".join(
+            f"- {one.case.id} ({one.case.kind}): {one.case.command!r} fails {list(one.failed)}\n"
+            for one in every
+        )
 
 
-def counts(judged: Sequence[Judged]) -> dict[str, Any]:
+class Demands:
+    """Demanded skills that the agents alone give, and the plan with what the vehicle adds."""
+
+    kind, log, load = "both", SCORES, staticmethod(load_demands)
+
+    def lines(self, one: Row) -> Iterator[Record]:
+        """The demands of all records: record, task, skill, and whether they are met."""
+        for judged in one.judged:
+            alone = _of_agents(judged.outcome)
+            for check in judged.case.expect:
+                named = {"record": judged.case.id, "task": check["under"], "skill": check["skill"]}
+                by_agents = passes(check, alone, one.vocabulary)
+                met = {"agents": by_agents, "plan": check not in judged.failed}
+                yield {**one.named(), **named, **met}
+
+    def rates(self, one: Row) -> dict[str, Estimate]:
+        """Shares of demands met by the agents and by the plan, and of records with all met."""
+        lines = list(self.lines(one))
+        clusters = [line["record"] for line in lines]
+        whole = dict.fromkeys(clusters, True)
+        for line in lines:
+            whole[line["record"]] &= line["plan"]
+        found = {by: clustered_rate([one[by] for one in lines], clusters) for by in MET}
+        rates = {f"demands_{by}": rate for by, rate in found.items()}
+        return {**rates, "all_demands_plan": clustered_rate([*whole.values()], [*whole])}
+
+    def record(self, one: Row) -> Record:
+        documents = (judged.outcome.document for judged in one.judged)
+        found = [[one["kind"] for one in document.get("warnings", ())] for document in documents]
+        counts = {"records": len(one.judged), "demands": len(list(self.lines(one)))}
+        counts["warned"] = sum(WARNING in kinds for kinds in found)
+        rates = {name: rate.to_json() for name, rate in self.rates(one).items()}
+        return one.named() | counts | rates
+
+    def table(self, rows: Sequence[Row]) -> Table:
+        """Shares of demanded skills that come out, in percent."""
+        columns = ("demands", "agents %", "plan %", "all %", "lost words")
+        caption = (
+            "Skills that commands demand, found in the steps of the task that they accompany: given"
+            " by the agents, in the plan with what the vehicle adds, and records with all of them."
+            " Lost words: plans that warn of data that no skill gathers."
+        )
+        lines = []
+        for one in rows:
+            rates = [rate.cell(scale=100, decimals=0) for rate in self.rates(one).values()]
+            found = self.record(one)
+            warned = f"{found['warned']} of {found['records']}"
+            lines.append(row(one.name, str(found["demands"]), *rates, warned))
+        return Table("", columns, lines, title="Both agents.", caption=caption)
+
+    def below(self, _rows: Sequence[Row]) -> str:
+        return ""
+
+
+def _counts(judged: Sequence[Judged]) -> Record:
     """How many are right, of how many, with the interval of the rate, and what is dangerous."""
     right = sum(one.right for one in judged)
     rate = wilson(right, len(judged)).to_json()
@@ -82,12 +171,65 @@ def counts(judged: Sequence[Judged]) -> dict[str, Any]:
     return {"right": right, "of": len(judged), "rate": rate, "dangerous_and_silent": silent}
 
 
-def judge(
-    cases: Sequence[Case],
-    plan: Plan,
+def _of_agents(outcome: Outcome) -> Outcome:
+    """A plan without the skills that the vehicle added."""
+    tasks = []
+    for task in outcome.tasks:
+        marks = (mark for mark in task.get("added", ()) if "parameter" not in mark)
+        added = {(mark["step"], mark["name"]) for mark in marks}
+        steps: list[Record] = []
+        for index, step in enumerate(task["skill_sequence"] or ()):
+            every = (skill for _role, skill in step_skills(step))
+            kept = [skill for skill in every if (index, skill["name"]) not in added]
+            steps.append({"perception_skills": kept})
+        tasks.append({"title": task["title"], "skill_sequence": steps})
+    return Outcome({"tasks": tasks}, outcome.error)
+
+
+def run_cases(
+    bench: Field | Demands,
+    files: Sequence[Path],
+    out: Path,
     vocabulary: Vocabulary,
-    progress: Callable[[str, int, int], None],
-    label: str,
+    agents: Sequence[PlanSettings],
+    new_plan: Callable[[Planner, bool], Plan],
+    progress: Progress,
+    *,
+    limit: int | None = None,
+    overwrite: bool = False,
+) -> Table:
+    """Run the cases of files with every pair of agents, and write the log, table.md and
+    results.json, which comes last, into `out`; `new_plan` makes what plans a case, for demands with
+    open places taken to be somewhere. Returns the table. Raises PlannerError.
+    """
+    cases = bench.load(files, vocabulary)[:limit]
+    names = (RESULTS, bench.log, TABLE)
+    check_folder(out, () if overwrite else names, "give --overwrite or another --out")
+    rows, used = [], Record()
+    for settings in agents:
+        with Planner(settings) as planner:
+            known = planner.agents.agents
+            name = settings.candidate, known["mission"].configuration.name
+            plan = new_plan(planner, bench.kind == "both")
+            judged = judge(cases, plan, vocabulary, progress, " ".join(name))
+            rows.append(Row(*name, judged, vocabulary))
+            used[rows[-1].name] = {of: one.record() for of, one in known.items()}
+    manifest = build_manifest(
+        bench.kind,
+        seed=None,
+        configuration={"limit": limit, "vocabulary": vocabulary.named},
+        inputs={str(path): path for path in files},
+        agents=used,
+    )
+    table = bench.table(rows)
+    write_jsonl(out / bench.log, [line for one in rows for line in bench.lines(one)])
+    write_text(out / TABLE, markdown_table(table) + bench.below(rows))
+    write_json(out / RESULTS, {"rows": [bench.record(one) for one in rows], "manifest": manifest})
+    return table
+
+
+def judge(
+    cases: Sequence[Case], plan: Plan, vocabulary: Vocabulary, progress: Progress, label: str
 ) -> tuple[Judged, ...]:
     """Plan every case and check the plan."""
     done = []
@@ -97,49 +239,3 @@ def judge(
         done.append(Judged(case, outcome, failed))
         progress(label, number, len(cases))
     return tuple(done)
-
-
-def field_table(rows: Sequence[FieldRow]) -> Table:
-    """Right, of and the rate by kind of case; the last row of each configuration counts all."""
-    lines: list[TableRow] = []
-    for one in rows:
-        lines.append(row(one.name, kind="section"))
-        lines += [_line(kind, some) for kind, some in one.kinds().items()]
-        lines.append(_line("all", one.judged))
-    columns = ("right", "of", "% [95 %]", "dangerous and silent")
-    caption = (
-        "Wilson intervals. Dangerous and silent: a dangerous case that failed without a warning."
-    )
-    return Table("field", "Field cases.", caption, "kind", columns, tuple(lines))
-
-
-def _line(kind: str, judged: Sequence[Judged]) -> TableRow:
-    found = counts(judged)
-    rate = found["rate"]
-    share = figure(rate["value"], rate["low"], rate["high"], scale=100, decimals=0)
-    silent = str(found["dangerous_and_silent"])
-    return row(kind, str(found["right"]), str(found["of"]), share, silent)
-
-
-def failures(rows: Iterable[FieldRow]) -> list[str]:
-    """A line per case that failed: its command and the checks."""
-    return [
-        f"{one.case.id} ({one.case.kind}): {one.case.command!r} fails {list(one.failed)}"
-        for row_ in rows
-        for one in row_.judged
-        if one.failed
-    ]
-
-
-def write_field(folder: Path, rows: Sequence[FieldRow], manifest: dict[str, Any]) -> None:
-    """Write plans.jsonl, table.md and results.json, which comes last."""
-    plans = [
-        {"id": one.case.id, "candidate": row_.candidate, "configuration": row_.configuration}
-        | asdict(one.outcome)
-        for row_ in rows
-        for one in row_.judged
-    ]
-    write_jsonl(folder / PLANS, plans)
-    below = "".join(f"- {line}\n" for line in failures(rows))
-    write_text(folder / TABLE, f"{markdown_table(field_table(rows))}\n{below}")
-    write_json(folder / RESULTS, {"rows": [one.as_json() for one in rows], "manifest": manifest})

@@ -1,3 +1,1 @@
-"""One metric per module: small pure functions over names, plans and the vocabulary, each with its
-definition.
-"""
+"""Small pure functions over names, plans and the vocabulary, each metric with its definition."""

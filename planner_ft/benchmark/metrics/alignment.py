@@ -16,7 +16,6 @@ from planner_ft.vocabulary.plans import Level, list_key, step_skills
 Pair = tuple[int, int]
 Substitution = tuple[str | None, str | None]
 """(expected name, predicted name); None where nothing stands for it."""
-
 TASK = "task"
 """The role of every entry of a mission plan."""
 LEADING = (TASK, "navigation")
@@ -27,9 +26,7 @@ COMPANY, NEARNESS = 1e-2, 1e-4
 
 @dataclass(frozen=True)
 class Entry:
-    """A named task or skill. `step` is the index of the task, or of the skill's step; `stated` says
-    whether the plan gives it parameters at all.
-    """
+    """A task or skill; `step`: index of its task or step; `stated`: parameters are given."""
 
     name: str
     role: str
@@ -49,20 +46,17 @@ def plan_entries(level: Level, plan: Any) -> Entries:
     for step, item in enumerate(items if isinstance(items, list) else ()):
         for role, owner in [(TASK, item)] if level == "mission" else step_skills(item):
             name = owner.get(key) if isinstance(owner, dict) else None
-            if isinstance(name, int | float):
-                name = str(name)  # no name of any vocabulary, and yet one that was given
-            if isinstance(name, str):
+            if isinstance(name, str | int | float):  # a number is a name, too, of no vocabulary
                 given = owner.get("parameters")
-                parameters = given if isinstance(given, dict) else {}
-                found.append(Entry(name, role, step, parameters, isinstance(given, dict)))
+                known = given if isinstance(given, dict) else {}
+                found.append(Entry(str(name), role, step, known, known is given))
     return tuple(found)
 
 
 @dataclass(frozen=True)
 class Alignment:
-    """Entries of an expected and a predicted plan. `pairs` are (expected, predicted) indices, in
-    the order of the expected ones; `missing` are expected entries without a partner, `extra`
-    predicted ones.
+    """Entries of an expected and a predicted plan: `pairs` of (expected, predicted) indices in the
+    order of the expected ones; `missing` and `extra` are the indices without a partner.
     """
 
     expected: Entries
@@ -104,29 +98,26 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
         same = tuple((index, index) for index in range(len(expected)))
         return Alignment(expected, predicted, same)
     leading = {entry.name for entry in expected if entry.role in LEADING}
-    others = {entry.name for entry in expected} - leading
     ours, theirs = _surroundings(expected), _surroundings(predicted)
-    size = max(len(expected), len(predicted))
+    size, steps = max(len(expected), len(predicted)), set[Pair]()
 
-    def beside(one: int, other: int) -> float:
+    def company(one: int, other: int) -> float:
+        if expected[one].name not in leading:
+            return float((expected[one].step, predicted[other].step) in steps)
         most = max(ours[one].total(), theirs[other].total(), 1)
         return (ours[one] & theirs[other]).total() / most
 
-    def in_step(one: int, other: int) -> float:
-        return float((expected[one].step, predicted[other].step) in steps)
+    def weight(one: int, other: int) -> float:
+        near = 1 - ((one - other) / size) ** 2
+        likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
+        return likeness + (COMPANY * company(one, other) + NEARNESS * near) / size
 
-    def paired(names: set[str], company: Callable[[int, int], float]) -> list[Pair]:
-        def weight(one: int, other: int) -> float:
-            near = 1 - ((one - other) / size) ** 2
-            likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
-            return likeness + (COMPANY * company(one, other) + NEARNESS * near) / size
-
-        return _assigned(_by_name(expected, names), _by_name(predicted, names), weight)
-
-    leads = paired(leading, beside)
-    steps = {(expected[one].step, predicted[other].step) for one, other in leads}
-    pairs = sorted([*leads, *paired(others, in_step)])
-    return Alignment(expected, predicted, tuple(pairs))
+    pairs: list[Pair] = []
+    for lead in (True, False):
+        named, given = (_by_name(entries, leading, lead) for entries in (expected, predicted))
+        pairs += _assigned(named, given, weight)
+        steps.update((expected[one].step, predicted[other].step) for one, other in pairs)
+    return Alignment(expected, predicted, tuple(sorted(pairs)))
 
 
 def _surroundings(entries: Entries) -> list[Counter[str]]:
@@ -160,9 +151,7 @@ def _assigned(
 
 
 def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: Vocabulary) -> float:
-    """Share of key-value pairs that agree (their F1), and more than all shares together where the
-    parameters are all right.
-    """
+    """F1 of key-value pairs, and more than all those together where all parameters are right."""
     stated, given = ours.parameters, theirs.parameters
     if not ours.stated:
         return 0.0
@@ -174,10 +163,10 @@ def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: V
     return share + 2 * size * right
 
 
-def _by_name(entries: Entries, names: set[str]) -> dict[str, list[int]]:
+def _by_name(entries: Entries, leading: set[str], lead: bool) -> dict[str, list[int]]:
     found: dict[str, list[int]] = defaultdict(list)
     for index, entry in enumerate(entries):
-        if entry.name in names:
+        if (entry.name in leading) == lead:
             found[entry.name].append(index)
     return found
 
@@ -192,23 +181,17 @@ def replaced(alignment: Alignment) -> dict[int, int]:
     theirs = _neighbours(alignment.pairs, len(predicted), 1)
     found: dict[int, int] = {}
     for shared in (2, 1):
-        for one in alignment.missing:
-            fitting = (
-                other
-                for other in alignment.extra
-                if other not in found.values()
-                and predicted[other].role == expected[one].role
-                and len(ours[one] & theirs[other]) == shared
-            )
-            if one not in found and (other := next(fitting, None)) is not None:
-                found[one] = other
+        for one in (one for one in alignment.missing if one not in found):
+            for other in (other for other in alignment.extra if other not in found.values()):
+                alike = predicted[other].role == expected[one].role
+                if alike and len(ours[one] & theirs[other]) == shared:
+                    found[one] = other
+                    break
     return found
 
 
 def substitutions(alignment: Alignment) -> list[Substitution]:
-    """Names that stand for others. What has no counterpart was omitted (no predicted name) or added
-    (no expected one).
-    """
+    """Names that stand for others; None for what was omitted (predicted), added (expected)."""
     pairs = replaced(alignment)
     given = [entry.name for entry in alignment.predicted]
     named: list[Substitution] = [

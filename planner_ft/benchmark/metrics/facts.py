@@ -60,9 +60,7 @@ class Groundedness:
 
 @dataclass(frozen=True)
 class Reached:
-    """Per kind of slot, how many the input states and how many of them reached the parameters, and
-    the task prompt (mission level).
-    """
+    """Per kind of slot, how many are stated, reached the parameters and (missions) the prompt."""
 
     stated: Counter[str]
     in_parameters: Counter[str]
@@ -72,9 +70,7 @@ class Reached:
 def groundedness(
     level: Level, entries: Sequence[Entry], source: Input, vocabulary: Vocabulary
 ) -> Groundedness:
-    """Judge every value of a plan's entries; what cannot be judged, since the input cannot be read
-    with certainty, is left out.
-    """
+    """Judge the values of a plan's entries; where the input cannot be read with certainty, none."""
     judged, ungrounded, before = 0, [], list[tuple[float, float]]()
     for given in given_values(level, entries, vocabulary):
         verdict = source.evidence(given.value, given.parameter, SCORING, before).given
@@ -86,9 +82,7 @@ def groundedness(
 
 
 def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Given]:
-    """Every value of a plan. The coordinates of a destination are one; a parameter that the
-    vocabulary does not have is judged by its form.
-    """
+    """Every value; a destination's coordinates are one, unknown parameters are judged by form."""
     for index, entry in enumerate(entries):
         skill = vocabulary.skill.get(entry.name) if level == "task" else None
         pair = [item.name for item in skill.coordinates] if skill else []
@@ -122,9 +116,7 @@ def _slot_kind(parameter: Parameter) -> str:
 def slot_propagation(
     level: Level, plan: Any, alignment: Alignment, source: Input, vocabulary: Vocabulary
 ) -> Reached:
-    """Follow every slot of the expected plan into the answer; a slot of an expected entry without a
-    partner is lost.
-    """
+    """Follow every slot of the expected plan into the answer; without a partner it is lost."""
     partner = dict(alignment.pairs)
     there = {
         (given.entry, given.parameter.name): given.value
@@ -150,9 +142,7 @@ def slot_propagation(
 
 
 def _says(prompt: str, slot: Given) -> bool:
-    """Whether a task prompt states a value: a number in any unit and wording, coordinates as a
-    pair, every word of a text.
-    """
+    """Whether a task prompt states a value: in any unit and wording, of a text every word."""
     if _slot_kind(slot.parameter) != "names":
         return read(prompt).evidence(slot.value, slot.parameter, SCORING).given is True
     wanted = slot.value if isinstance(slot.value, list) else [slot.value]

@@ -1,11 +1,9 @@
-"""Whether an answer is right as a whole, and the kind of failure of a wrong one, as the published
-robustness analysis classified them.
-"""
+"""Is an answer right as a whole, and how is a wrong one wrong (the published failure kinds)?"""
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping
 from itertools import groupby
 from typing import Any, Literal, get_args
 
@@ -14,6 +12,7 @@ from planner_ft.benchmark.metrics.names import exact_sequence, name_sequence
 from planner_ft.benchmark.metrics.values import parameters_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, named_entries, plan_problems
+from planner_ft.vocabulary.replay import Stop, on_board, replay
 
 Failure = Literal[
     "prerequisite omission",
@@ -26,29 +25,19 @@ Failure = Literal[
     "invalid output",
 ]
 FAILURES: tuple[Failure, ...] = get_args(Failure)
-PUBLISHED: dict[Failure, int] = {
-    "prerequisite omission": 4,
-    "parameter propagation": 2,
-    "substitution": 2,
-    "hallucination": 1,
-}
+PUBLISHED: dict[Failure, int] = dict(zip(FAILURES, (4, 2, 2, 1), strict=False))
 """Failures of the published mission agent in 25 answers; of the other kinds there was none."""
-
 Plan = dict[str, Any]
 Step = tuple[Entry, ...]
 
 
 def schema_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer parsed and has the structure of a plan of this level
-    (`schemas/LEVEL.schema.json`). The published definition: an invented name can be schema-valid.
-    """
+    """Whether an answer has a plan's structure, as published (LEVEL.schema.json)."""
     return plan is not None and not plan_problems(level, plan, vocabulary, strict=False)
 
 
 def strict_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer is schema-valid and every name, role, parameter name, type and range is of
-    the vocabulary (`schemas/LEVEL.strict.schema.json`).
-    """
+    """Whether names, roles, types and ranges are the vocabulary's (LEVEL.strict.schema.json)."""
     return plan is not None and not plan_problems(level, plan, vocabulary, strict=True)
 
 
@@ -59,9 +48,7 @@ def invented_names(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> l
 
 
 def refuses(level: Level, plan: Plan | None) -> bool:
-    """Whether an answer is a plan without entries. An output that does not parse refuses nothing: a
-    model that breaks down is not praised for caution.
-    """
+    """Whether an answer is a plan without entries; one that does not parse refuses nothing."""
     return plan is not None and plan.get(list_key(level)) == []
 
 
@@ -96,16 +83,14 @@ def failure_kind(
     if invented_names(level, plan, vocabulary):
         return "hallucination"
     if exact_sequence(level, plan, expected):
-        right = _parameters_right(level, plan, expected, vocabulary)
+        # Task by task, or step by step: the two targets of two Transits must not be swapped.
+        steps = zip(_steps(level, expected), _steps(level, plan), strict=True)
+        right = all(_step_right(level, *pair, vocabulary) for pair in steps)
         return None if right else "parameter propagation"
     predicted, wanted = list(named_entries(level, plan)), list(named_entries(level, expected))
     ours, theirs = (Counter(name for name, _ in entries) for entries in (predicted, wanted))
-    missing, added = theirs - ours, ours - theirs
-    unresolved = Counter(
-        name
-        for name, parameters in predicted
-        if any(value == list(vocabulary.unresolved) for value in parameters.values())
-    )
+    missing, added, nowhere = theirs - ours, ours - theirs, list(vocabulary.unresolved)
+    unresolved = Counter(name for name, values in predicted if nowhere in values.values())
     if missing:
         pairs = zip(predicted, wanted, strict=False)
         # Something is planned after the first expected name that is missing.
@@ -120,25 +105,16 @@ def failure_kind(
 
 
 def whole_plan_unordered(
-    level: Level,
-    plan: Plan | None,
-    expected: Plan,
-    vocabulary: Vocabulary,
-    *,
-    valid: bool | None = None,
+    level: Level, plan: Plan | None, expected: Plan, vocabulary: Vocabulary
 ) -> bool:
-    """Whether the answer has the right tasks, or steps, with the right parameters, in any order.
-
-    Skills that run in one step must stand in one step. An answer that is not schema-valid is never
-    right; `valid` says whether it is, where that is known.
-    """
-    if plan is None or not (schema_valid(level, plan, vocabulary) if valid is None else valid):
+    """Whether a valid answer has the right tasks, or whole steps, as expected, in any order."""
+    if plan is None or not schema_valid(level, plan, vocabulary):
         return False
     if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):
         return False
     from scipy.optimize import linear_sum_assignment
 
-    ours, theirs = (_alike(_steps(level, one)) for one in (expected, plan))
+    ours, theirs = (_alike(level, one) for one in (expected, plan))
     for names, steps in ours.items():
         right = [
             [_step_right(level, one, other, vocabulary) for other in theirs[names]] for one in steps
@@ -147,14 +123,6 @@ def whole_plan_unordered(
         if not all(right[row][column] for row, column in pairs):
             return False
     return True
-
-
-def _parameters_right(level: Level, plan: Plan, expected: Plan, vocabulary: Vocabulary) -> bool:
-    """Of two plans with the same sequence of names, whether the parameters are right task by task,
-    or step by step: the two targets of two Transits must not be swapped.
-    """
-    steps = zip(_steps(level, expected), _steps(level, plan), strict=True)
-    return all(_step_right(level, *pair, vocabulary) for pair in steps)
 
 
 def _step_right(level: Level, expected: Step, predicted: Step, vocabulary: Vocabulary) -> bool:
@@ -172,9 +140,26 @@ def _steps(level: Level, plan: Plan) -> list[Step]:
     return [tuple(group) for _step, group in groupby(entries, key=lambda entry: entry.step)]
 
 
-def _alike(steps: Sequence[Step]) -> dict[tuple[str, ...], list[Step]]:
-    """Steps by their names and roles."""
+def _alike(level: Level, plan: Plan) -> dict[tuple[str, ...], list[Step]]:
+    """A plan's steps by their names and roles."""
     found: dict[tuple[str, ...], list[Step]] = defaultdict(list)
-    for step in steps:
+    for step in _steps(level, plan):
         found[tuple(sorted(f"{entry.role} {entry.name}" for entry in step))].append(step)
     return found
+
+
+def executable(
+    plan: Mapping[str, Any] | None, expected: Mapping[str, Any], vocabulary: Vocabulary
+) -> Stop | None:
+    """Where the vehicle, carrying a mission answer out task by task, stops, or None when it runs to
+    its end, which need not be the one that was asked for (`vocabulary.replay`).
+
+    Data that the expected plan sends or reports without collecting it is on board from before and
+    given to the answer, too. An answer that does not parse, and one without tasks where tasks are
+    expected, is no plan and stops at once: refusing everything is not executable.
+    """
+    entries = plan.get("tasks") if plan else None
+    if not isinstance(entries, list) or (not entries and expected["tasks"]):
+        reason = "the answer does not parse" if plan is None else "nothing is planned"
+        return Stop(0, "", "plan given", reason)
+    return replay(plan or {}, vocabulary, on_board(expected, vocabulary))

@@ -17,10 +17,7 @@ from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
 
 class Counts(NamedTuple):
-    """How many of the `predicted` items were among the `expected` ones (`right`).
-
-    Where nothing is expected, only to predict nothing is right.
-    """
+    """Items that are right among predicted and expected ones; of nothing, nothing is right."""
 
     right: int
     predicted: int
@@ -61,9 +58,7 @@ def counts_by_name(predicted: Iterable[str], expected: Iterable[str]) -> dict[st
 
 
 def counts_by_role(predicted: Iterable[Entry], expected: Iterable[Entry]) -> dict[str, Counts]:
-    """Occurrences of names in each role that either plan has: a skill in another role than its own
-    is wrong in both.
-    """
+    """Occurrences of names in each role: a skill in another role than its own is wrong in both."""
     names: dict[str, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
     for side, entries in ((1, expected), (0, predicted)):
         for entry in entries:
@@ -72,9 +67,7 @@ def counts_by_role(predicted: Iterable[Entry], expected: Iterable[Entry]) -> dic
 
 
 def name_sequence(level: Level, plan: dict[str, Any]) -> list[tuple[str, ...]]:
-    """The names in order: one title per task, or per step its skills with their roles, sorted, as
-    skills of one step run at the same time.
-    """
+    """The names in order: a title per task, or per step its skills with their roles, sorted."""
     if level == "mission":
         return [(entry.name,) for entry in plan_entries(level, plan)]
     steps = plan.get(list_key(level))
@@ -85,31 +78,24 @@ def name_sequence(level: Level, plan: dict[str, Any]) -> list[tuple[str, ...]]:
 
 
 def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
-    """Whether an answer names the expected tasks, or steps with their skills, in the expected order
-    and nothing else; an answer that does not parse never does.
-    """
+    """Whether an answer that parses has exactly the expected tasks, or steps, in their order."""
     return plan is not None and name_sequence(level, plan) == name_sequence(level, expected)
 
 
 def edit_distance(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
-    """Levenshtein distance (1966) over whole names or steps, over the longer length: 0.0 for equal
-    sequences, two empty ones included; 1.0 where nothing agrees, so also where one is empty.
-    """
+    """Levenshtein distance (1966) over names or steps, by the longer length: 0.0 equal to 1.0."""
     return Levenshtein.normalized_distance(predicted, expected)
 
 
 def common_subsequence(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> Counts:
-    """Its length beside those of the two sequences; the F1 is ROUGE-L with beta 1 (Lin 2004) over
-    names instead of words.
-    """
+    """Its length beside those of the sequences; F1 is ROUGE-L with beta 1 (Lin 2004) over names."""
     return Counts(LCSseq.similarity(predicted, expected), len(predicted), len(expected))
 
 
 def edge_f1(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
-    """F1 between the sets of edges of two sequences (TaskBench's edge F1, Shen et al. 2023).
-
-    A node is a name with the number of its occurrence; an edge leads from each node to the next.
-    Where neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
+    """F1 between the sets of edges of two sequences (TaskBench's edge F1, Shen et al. 2023). A node
+    is a name with the number of its occurrence; an edge leads from each node to the next. Where
+    neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
     """
     ours, theirs = _edges(predicted), _edges(expected)
     if not ours and not theirs:
@@ -118,9 +104,5 @@ def edge_f1(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> floa
 
 
 def _edges(sequence: Sequence[Hashable]) -> set[Hashable]:
-    seen: Counter[Hashable] = Counter()
-    nodes = []
-    for name in sequence:
-        seen[name] += 1
-        nodes.append((name, seen[name]))
+    nodes = [(name, list(sequence[:at]).count(name)) for at, name in enumerate(sequence)]
     return set(pairwise(nodes))

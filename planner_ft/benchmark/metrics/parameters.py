@@ -1,6 +1,4 @@
-"""Parameters of aligned tasks or skills: entries that are all right, and F1 of keys and of
-key-value pairs.
-"""
+"""Parameters of aligned tasks or skills: entries all right, F1 of keys and key-value pairs."""
 
 from __future__ import annotations
 
@@ -16,8 +14,8 @@ from planner_ft.vocabulary.plans import Level
 
 class Parameters(NamedTuple):
     """Of the expected entries that the answer has, too (`matched`), how many have exactly the
-    expected parameters (`right`): every key, every value agreeing in the form that the vehicle reads
-    (`values_agree`). Expected entries without a `parameters` object are not compared.
+    expected parameters (`right`): every key, every value in the form that the vehicle reads. What
+    is expected without a `parameters` object is not compared.
 
     Keys, and key-value pairs, that are right, predicted and expected, in aligned entries and in the
     whole plan, with the keys of missing and extra entries; values agree by their content there ("5

@@ -12,9 +12,7 @@ from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
 RELATIVE, ABSOLUTE = 0.02, 0.005
-"""Tolerances of numbers: relative to the expected value (labelling rules: converted values are
-allowed 2 %), and half a unit of the second decimal, to which computed values are rounded.
-"""
+"""Tolerances of numbers: 2 % as the labelling rules allow, half a unit of the second decimal."""
 FARTHEST = 0.5
 """Metres that a position may lie off: another whole metre is another place."""
 ROUNDING = 1e-9
@@ -48,8 +46,8 @@ def values_agree(
     kind = parameter.type if parameter is not None else None
     if kind == "polygon":
         return _rings_agree(given, stated, vocabulary)
-    if loose and kind == "texts" and _are_texts(given) and _are_texts(stated):
-        return {normalised(text) for text in given} == {normalised(text) for text in stated}
+    if loose and kind == "texts" and all(map(_are_texts, (given, stated))):
+        return set(map(normalised, given)) == set(map(normalised, stated))
     if kind == "id":
         given, stated = str(given), str(stated)
     if loose and parameter is not None and isinstance(given, str) and is_number(stated):
@@ -92,8 +90,6 @@ def parameters_agree(
     level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
 ) -> bool:
     """Whether two parameter objects of a task or skill have the same keys with agreeing values."""
-    if given.keys() != stated.keys():
-        return False
     return not changed_keys(level, name, given, stated, vocabulary)
 
 
@@ -101,29 +97,27 @@ def changed_keys(
     level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
 ) -> tuple[str, ...]:
     """Keys of either object whose values do not agree, and keys of one alone."""
-    if given == stated:
-        return ()
-    known = known_parameters(level, name, vocabulary)
-    return tuple(
-        key
-        for key in dict.fromkeys([*stated, *given])
-        if key not in given
-        or key not in stated
-        or not values_agree(given[key], stated[key], known.get(key), vocabulary)
-    )
+    same = agreeing_keys(level, name, given, stated, vocabulary, loose=False)
+    return tuple(key for key in dict.fromkeys([*stated, *given]) if key not in same)
 
 
 def agreeing_keys(
-    level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
+    level: Level,
+    name: str,
+    given: Parameters,
+    stated: Parameters,
+    vocabulary: Vocabulary,
+    *,
+    loose: bool = True,
 ) -> list[str]:
-    """Keys under which both objects have the same content (`values_agree`, loose)."""
+    """Keys under which both objects have the same content, or value (`values_agree`)."""
     if given == stated:
         return list(stated)
     known = known_parameters(level, name, vocabulary)
     return [
         key
         for key, value in stated.items()
-        if key in given and values_agree(given[key], value, known.get(key), vocabulary, loose=True)
+        if key in given and values_agree(given[key], value, known.get(key), vocabulary, loose=loose)
     ]
 
 
@@ -143,11 +137,8 @@ def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:
     given, stated = (
         ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring for ring in (given, stated)
     )
-    turns = (
-        ring[start:] + ring[:start]
-        for ring in (given, given[::-1])
-        for start in range(max(len(ring), 1))
-    )
+    starts = range(max(len(given), 1))
+    turns = (ring[at:] + ring[:at] for ring in (given, given[::-1]) for at in starts)
     return any(values_agree(turn, stated, None, vocabulary) for turn in turns)
 
 

@@ -21,15 +21,10 @@ class AnswerSource(Protocol):
     """Answers the queries of one candidate's jobs. Raises PlannerError where it cannot go on."""
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
-        """Yield (index of the sample, fields for predictions.jsonl) as answers are completed, in
-        any order: output, time_s (its share of a batch), finish_reason, error, tokens,
-        prompt_tokens, forward_passes and more.
-        """
+        """Yield (index of the sample, fields for predictions.jsonl), in any order."""
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
-        """Yield (index of the sample, fields for latency.jsonl), one query after the other, after a
-        warm-up: latency_s, tokens, forward_passes, and first_token_s where it is known.
-        """
+        """Yield (index of the sample, fields of `timed`), one query at a time, after a warm-up."""
 
     def costs(self) -> dict[str, Any]:
         """Costs beside the queries, as run.json records them per candidate: load_s ..."""

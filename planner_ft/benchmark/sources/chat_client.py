@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import email.utils
 import json
 import queue
@@ -25,9 +26,7 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 30.0
-"""Seconds before the second attempt, doubled before each later one up to the longest; a random half
-is taken off.
-"""
+"""Seconds before a second attempt, doubled up to the longest, less up to a random half."""
 LONGEST_WAIT = 600.0
 """Seconds that a server may ask us to wait (Retry-After) before we call it closed."""
 PASSING = frozenset({408, 409, 425, 429})
@@ -42,9 +41,7 @@ class Unanswerable(Exception):
 
 
 class Rejected(PlannerError):
-    """The server understood the request and will not serve it; asking again changes nothing.
-    `status` is HTTP's.
-    """
+    """The server understood and will not serve the request, ever; `status` is HTTP's."""
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message)
@@ -52,9 +49,7 @@ class Rejected(PlannerError):
 
 
 class Passing(Exception):
-    """A failure that may pass: no connection, a reply that is cut off, too slow or no JSON. `wait`
-    is the pause in seconds that the server asks for.
-    """
+    """A failure that may pass (no connection, cut off, too slow, no JSON) after `wait` seconds."""
 
     def __init__(self, reason: str, wait: float | None = None) -> None:
         super().__init__(reason)
@@ -64,8 +59,8 @@ class Passing(Exception):
 @dataclass(frozen=True)
 class Reply:
     """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first
-    text (streams alone); `problem` says why there is no text. `choices` are the log-probabilities that
-    the server gives and that can be believed.
+    text (streams alone); `problem` says why there is no text. `choices` are log-probabilities that
+    can be believed.
     """
 
     text: str
@@ -124,11 +119,10 @@ class ChatClient:
     def complete_all(
         self, function: Callable[[Item], Result], items: Sequence[Item]
     ) -> Iterator[tuple[int, Result]]:
-        """Yield (index of the item, result) as results come, `concurrency` at a time.
-
-        When a call raises, no further item is begun, those that were begun are waited for and
-        yielded if they succeed, and then the first exception is raised. The threads are daemons, so
-        that a program can end while a server hangs.
+        """Yield (index of the item, result) as results come, `concurrency` at a time. When a call
+        raises, no further item is begun, those that were begun are waited for and yielded if they
+        succeed, and then the first exception is raised. The threads are daemons, so that a program
+        can end while a server hangs.
         """
         waiting: queue.SimpleQueue[tuple[int, Item]] = queue.SimpleQueue()
         done: queue.SimpleQueue[tuple[int, Any, BaseException | None] | None] = queue.SimpleQueue()
@@ -237,9 +231,7 @@ class ChatClient:
         return text.replace(self.key, "***") if self.key else text
 
     def _pause(self, attempt: int, asked: float | None) -> bool:
-        """Wait before the next attempt; return whether there shall be none, because another
-        thread's question has failed for good.
-        """
+        """Wait before the next attempt; True: there shall be none, another thread's has failed."""
         if asked is not None and asked > LONGEST_WAIT:
             wait = f"the server asks to wait for {asked:.0f} s"
             raise PlannerError(f"{self.settings.root}: {wait}; go on then: {KEPT}")
@@ -248,9 +240,7 @@ class ChatClient:
 
 
 def _within(chunks: Iterable[bytes], deadline: float) -> Iterator[bytes]:
-    """The chunks of a reply. Raises Passing when they go on after `deadline` (of
-    `time.perf_counter`) or are too many.
-    """
+    """A reply's chunks. Raises Passing after `deadline` (time.perf_counter), or for too many."""
     size = 0
     for chunk in chunks:
         size += len(chunk)
@@ -331,24 +321,16 @@ def _text(message: dict[str, Any]) -> str:
 
 
 def _choices(value: Any) -> list[Choice] | None:
-    """The tokens of a reply as the chat completions API gives them; a token's own is not among its
-    alternatives here.
-    """
+    """The tokens of a reply; here none is among its own alternatives."""
+    found = []
     try:
-        return [
-            Choice(
-                len(token["token"]),
-                token["logprob"],
-                tuple(
-                    (other["token"], other["logprob"])
-                    for other in token.get("top_logprobs") or ()
-                    if other["token"] != token["token"]
-                ),
-            )
-            for token in value["content"]
-        ]
+        for token in value["content"]:
+            every = [(one["token"], one["logprob"]) for one in token.get("top_logprobs") or ()]
+            others = tuple(one for one in every if one[0] != token["token"])
+            found.append(Choice(len(token["token"]), token["logprob"], others))
     except (AttributeError, KeyError, TypeError):
         return None
+    return found
 
 
 def _usage(value: dict[str, Any]) -> tuple[int | None, int | None]:
@@ -362,10 +344,9 @@ def _usage(value: dict[str, Any]) -> tuple[int | None, int | None]:
 def _excerpt(body: bytes | str) -> str:
     """The beginning of a server's message, on one line; of an error object its message."""
     text = body.decode("utf-8", "replace") if isinstance(body, bytes) else body
-    try:
+    value = None
+    with contextlib.suppress(ValueError):
         value = json.loads(text)
-    except ValueError:
-        value = None
     if isinstance(value, dict):
         error = value.get("error", value.get("detail", value.get("message")))
         text = str(error.get("message") or error) if isinstance(error, dict) else str(error or text)
@@ -374,10 +355,8 @@ def _excerpt(body: bytes | str) -> str:
 
 def _asked_wait(header: str | None) -> float | None:
     """Seconds that Retry-After asks for: a number, or a date (RFC 9110, 10.2.3)."""
-    try:
+    with contextlib.suppress(ValueError):
         return max(0.0, float(header or "none"))
-    except ValueError:
-        pass
     try:
         moment = email.utils.parsedate_to_datetime(header or "")
     except ValueError:
@@ -386,9 +365,7 @@ def _asked_wait(header: str | None) -> float | None:
 
 
 def _is_about_length(message: str) -> bool:
-    """Whether a refusal is about this question's length: vLLM, llama.cpp and OpenAI all name the
-    context.
-    """
+    """Whether a refusal is about a question's length: all servers name the context."""
     lowered = message.lower()
     words = ("length", "window", "exceed", "size", "long")
     return "context" in lowered and any(word in lowered for word in words)

@@ -1,9 +1,8 @@
-"""Answers of a server that speaks the OpenAI chat completions API, held to the strict schema of a
-plan where the configuration asks for it.
-"""
+"""Answers of a chat completions server, held to a plan's strict schema where that is asked."""
 
 from __future__ import annotations
 
+import contextlib
 import json
 import time
 from collections.abc import Iterator, Sequence
@@ -25,32 +24,20 @@ if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
 
 UNPENALISED = {"repeat_penalty": 1.0}
-"""llama.cpp's Python server punishes repetition unless it is told not to: no greedy decoding, and
-the end of every JSON. Not all servers take the field.
-"""
+"""Else llama.cpp's Python server punishes repetition, and so every JSON; some refuse the field."""
 LOGPROBS = {"logprobs": True, "top_logprobs": 3}
-"""How servers are asked for the log-probabilities of an answer; those that know them no better go
-without.
-"""
+"""How servers are asked for log-probabilities; those that do not know them go without."""
 GREETING = "Greet me in one word."
 FORMS = ("json_schema", "json_object")
-"""Ways of asking for a schema: OpenAI's (vLLM, Ollama, llama.cpp), then the older one of llama.cpp
-and its Python server.
-"""
+"""Ways of asking for a schema: OpenAI's (vLLM, Ollama, llama.cpp), llama.cpp's older one."""
 PROBE_ANSWER = {"probe": "buoy 41"}
 """An answer that no model gives unless it is held to a schema."""
-PROBE_SCHEMA: Schema = {
-    "type": "object",
-    "properties": {"probe": {"const": "buoy 41"}},
-    "required": ["probe"],
-    "additionalProperties": False,
-}
+PROBE_SCHEMA: Schema = {"type": "object", "properties": {"probe": {"const": "buoy 41"}}}
+PROBE_SCHEMA |= {"required": ["probe"], "additionalProperties": False}
 
 
 class EndpointSource:
-    """A server. Opening asks it what it serves, which fields it takes and, if a job needs it,
-    whether it can hold answers to a schema. Raises PlannerError.
-    """
+    """A server; opening asks what it serves and heeds. Raises PlannerError."""
 
     def __init__(self, plan: Plan, jobs: Sequence[Job], endpoint: EndpointSettings) -> None:
         started = time.perf_counter()
@@ -61,7 +48,7 @@ class EndpointSource:
             self.models = self.client.models()
             # A server that does not answer at all is said to be so here.
             self.client.complete(self._greeting(1))
-            heeded = self._heeded(self._greeting(1, **UNPENALISED)) is not None
+            heeded = self._tried(self._greeting(1, **UNPENALISED))
             self.fields: dict[str, Any] = dict(UNPENALISED if heeded else {})
             # Streams time an answer: what is asked for beside it would be timed, too.
             self.asked: dict[str, Any] = LOGPROBS if self._tells() else {}
@@ -73,16 +60,12 @@ class EndpointSource:
         self.seconds = time.perf_counter() - started
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
-        """Several questions at a time; answers that came are yielded also when another question
-        failed for good.
-        """
+        """Several questions at a time; answers are yielded also when another question failed."""
         bodies = [{**self.request(job, sample), **self.asked} for sample in samples]
         yield from self.client.complete_all(self._answered, bodies)
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
-        """One question at a time, streamed where the server streams, after one that is not
-        counted.
-        """
+        """One question at a time, streamed if the server streams, after one that is not counted."""
         bodies = [self.request(job, sample) for sample in samples]
         for index, body in enumerate([*bodies[:1], *bodies], -1):
             started = time.perf_counter()
@@ -106,9 +89,7 @@ class EndpointSource:
         self.client.close()
 
     def request(self, job: Job, sample: Sample) -> dict[str, Any]:
-        """The body of a chat completions request: greedy, or sampled where the job is a repeat,
-        with the messages that the local candidates get.
-        """
+        """The body of a request, greedy or sampled, with the messages that candidates get."""
         level, vocabulary = self.plan.settings.level, self.plan.vocabulary
         told = job.with_vocabulary
         messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=told)
@@ -166,51 +147,39 @@ class EndpointSource:
         return {**self._body([{"role": "user", "content": GREETING}], max_tokens), **fields}
 
     def _accepted_form(self) -> str:
-        """The first way of asking for a schema that the server heeds. Raises PlannerError when it
-        heeds none.
-        """
+        """The first way of asking for a schema that is heeded. Raises PlannerError without one."""
         for form in FORMS:
             wanted = _response_format(form, PROBE_SCHEMA)
-            text = self._heeded(self._greeting(64, response_format=wanted))
-            try:
-                if json.loads(text or "null") == PROBE_ANSWER:
+            found = self._tried(self._greeting(64, response_format=wanted))
+            with contextlib.suppress(ValueError):
+                if found and json.loads(found.text) == PROBE_ANSWER:
                     return form
-            except ValueError:
-                continue
         problem = "the server does not hold answers to a JSON schema (response_format)"
         way = "leave out the configurations with +schema"
         raise PlannerError(f"{self.endpoint.root}: {problem}; {way}")
 
     def _tells(self) -> bool:
         """Whether the server gives log-probabilities that can be believed."""
-        try:
-            return (
-                self.client.complete(self._greeting(4, **LOGPROBS), retries=1).choices is not None
-            )
-        except (PlannerError, Unanswerable):
-            return False
+        found = self._tried(self._greeting(4, **LOGPROBS))
+        return found is not None and found.choices is not None
 
-    def _heeded(self, body: dict[str, Any]) -> str | None:
-        """The answer to a request with a field that the server may not know, None where it fails:
-        some answer even that with HTTP 500.
-        """
+    def _tried(self, body: dict[str, Any]) -> Reply | None:
+        """The answer to a request that the server may not know, None: some say HTTP 500."""
         try:
-            return self.client.complete(body, retries=1).text
+            return self.client.complete(body, retries=1)
         except (PlannerError, Unanswerable):
             return None
 
 
 def served_schema(level: Level, vocabulary: Vocabulary) -> Schema:
     """The strict schema of a level's plans in the words that servers' grammar compilers understand.
-
     Compilers differ: llama.cpp's reads no unanchored pattern and takes `anyOf` instead of the
     properties beside it. The form here admits the same plans but for one thing: a text that must
     not be blank must only not be empty.
     """
-    schema = plan_schema(level, vocabulary, strict=True)
-    served: Schema = _translated(
-        {key: value for key, value in schema.items() if key not in ("$schema", "title")}
-    )
+    schema = plan_schema(level, vocabulary, strict=True).items()
+    kept = {key: value for key, value in schema if key not in ("$schema", "title")}
+    served: Schema = _translated(kept)
     return served
 
 

@@ -1,19 +1,20 @@
-"""Answers of a candidate that is loaded here."""
+"""Answers of a candidate that is loaded here; batches by length, whose size finds itself."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sources import Fields, timed
-from planner_ft.benchmark.sources.batching import in_batches, is_out_of_memory, new_batch_size
 from planner_ft.candidates.loading import resolve_device
 from planner_ft.confidence.calibration import plan_confidence
 from planner_ft.confidence.choices import as_json, known
 from planner_ft.decoding.configurations import Configuration
 from planner_ft.decoding.engine import Engine
+from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import peak_memory, reset_peak_memory
 
 if TYPE_CHECKING:
@@ -25,9 +26,7 @@ SWAPS = 3
 
 
 class EngineSource:
-    """An engine with the candidate's adapter, if any job needs it; queries are batched. Raises
-    PlannerError where the candidate cannot be loaded.
-    """
+    """An engine with the candidate's adapter, if any job needs it. Raises PlannerError."""
 
     def __init__(self, plan: Plan, jobs: Sequence[Job]) -> None:
         self.device, self.level = resolve_device(plan.device), plan.settings.level
@@ -56,11 +55,8 @@ class EngineSource:
         lengths = [len(query.prompt) for query in queries]
 
         def ask(indices: list[int]) -> Iterator[tuple[int, Generation]]:
-            chosen, size = [queries[index] for index in indices], len(indices)
-            sampling = job.sampling
-            return self.engine.answers(
-                chosen, job.configuration, batch_size=size, sampling=sampling
-            )
+            chosen, how = [queries[index] for index in indices], {"sampling": job.sampling}
+            return self.engine.answers(chosen, job.configuration, batch_size=len(indices), **how)
 
         calibration = job.calibration()
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
@@ -72,20 +68,18 @@ class EngineSource:
                 "logprobs": as_json(choices),
                 "confidence": plan_confidence(calibration, text, choices),
             }
-            yield (
-                index,
-                {
-                    "output": text,
-                    "tokens": len(answer.ids),
-                    "forward_passes": answer.forward_passes,
-                    "time_s": round(answer.seconds, 4),
-                    "finish_reason": answer.finish_reason,
-                    "error": answer.error,
-                    "prompt_tokens": lengths[index],
-                    "batch": size,
-                    **{name: value for name, value in extra.items() if value not in (None, 0, "")},
-                },
-            )
+            fields = {
+                "output": text,
+                "tokens": len(answer.ids),
+                "forward_passes": answer.forward_passes,
+                "time_s": round(answer.seconds, 4),
+                "finish_reason": answer.finish_reason,
+                "error": answer.error,
+                "prompt_tokens": lengths[index],
+                "batch": size,
+            }
+            more = {name: value for name, value in extra.items() if value not in (None, 0, "")}
+            yield index, {**fields, **more}
 
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         queries = self._queries(job, samples)
@@ -93,9 +87,7 @@ class EngineSource:
             yield index, timed(one.seconds, one.tokens, one.forward_passes, one.first_token_s)
 
     def costs(self) -> dict[str, Any]:
-        """Seconds to load base and adapter, the mean of a switch between them, and the most memory
-        since loading began.
-        """
+        """Seconds to load, the mean of an adapter switch, the most memory since loading."""
         return {
             "load_s": round(self.load_seconds, 3),
             "adapter_swap_s": self._swap_seconds(),
@@ -117,3 +109,72 @@ class EngineSource:
     def _queries(self, job: Job, samples: Sequence[Sample]) -> list[Query]:
         told = job.with_vocabulary
         return [self.engine.query(self.level, one.record, with_vocabulary=told) for one in samples]
+
+
+Answer = TypeVar("Answer")
+
+FIRST, LARGEST = 16, 256
+"""The size to begin with, also the largest on a CPU (larger ones gain nothing), and on a GPU."""
+
+
+@dataclass
+class BatchSize:
+    """The queries that are generated together, and how many there may be at most."""
+
+    size: int
+    largest: int
+
+    def used(self, count: int, *, fitted: bool) -> None:
+        """Judge by a batch of `count` queries. Raises PlannerError when one alone did not fit."""
+        if fitted:
+            self.size = min(2 * count, self.largest) if count == self.size else self.size
+        elif count == 1:
+            raise PlannerError(
+                "the device has too little memory for a single query; give a smaller candidate or"
+                " another --device (what is done is kept for --resume)"
+            )
+        else:
+            self.size = self.largest = count // 2
+
+
+def in_batches(
+    ask: Callable[[list[int]], Iterator[tuple[int, Answer]]],
+    lengths: Sequence[int],
+    batch: BatchSize,
+    out_of_memory: Callable[[Exception], bool],
+) -> Iterator[tuple[int, Answer, int]]:
+    """Yield (index, answer, size of its batch), longest queries first, so that a query that does
+    not fit shows at once; those that a full memory left unanswered are asked again. `ask` answers
+    the queries of some indices and yields (place among them, answer).
+    """
+    waiting = sorted(range(len(lengths)), key=lambda index: (-lengths[index], index))
+    while waiting:
+        asked, done, full = waiting[: batch.size], set(), False
+        try:
+            for place, answer in ask(asked):
+                done.add(asked[place])
+                yield asked[place], answer, len(asked)
+        except Exception as error:
+            if not out_of_memory(error):
+                raise
+            full = True
+        # Out of the handler: the exception held the tensors of the batch.
+        batch.used(len(asked), fitted=not full)
+        waiting = [index for index in waiting if index not in done]
+
+
+def is_out_of_memory(error: BaseException) -> bool:
+    """Whether the accelerator's memory was too small; its cached memory is given back then."""
+    import torch
+
+    found = any(isinstance(one, torch.OutOfMemoryError) for one in (error, error.__cause__))
+    if found and torch.cuda.is_available():
+        torch.cuda.empty_cache()
+    return found
+
+
+def new_batch_size(asked: int | None, device: str) -> BatchSize:
+    """The size that was asked for, or one that finds itself."""
+    if asked is not None:
+        return BatchSize(asked, asked)
+    return BatchSize(FIRST, LARGEST if device.startswith("cuda") else FIRST)

@@ -1,3 +1,1 @@
-"""Suites: many candidates on several data sets with one command, one process for each, gone on with
-after a kill at any point.
-"""
+"""Many candidates on several data sets with one command, a process each, resumed after a kill."""

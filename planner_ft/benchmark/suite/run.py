@@ -1,6 +1,4 @@
-"""`plannerft bench --suite`: run missing units, then write a folder per data set, scored again from
-the answers that are there, and one overview of all.
-"""
+"""`plannerft bench --suite`: run missing units, score all answers again, write an overview."""
 
 from __future__ import annotations
 
@@ -11,8 +9,8 @@ from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.folder import RunRecord, measured_in, read_run
 from planner_ft.benchmark.layout import lines
-from planner_ft.benchmark.records import RunRecord, measured_in, read_run
 from planner_ft.benchmark.results import Measured, Results, assemble, heading
 from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.benchmark.suite.session import Report, Session, State, opened
@@ -36,7 +34,6 @@ HOW = (
 @dataclass(frozen=True)
 class PartResults:
     """One data set of a suite with everything that was measured on it; `results` may have no rows.
-
     `failed` are candidates in configurations that could not be measured: candidate, label,
     configuration, reason.
     """
@@ -46,34 +43,20 @@ class PartResults:
     failed: tuple[dict[str, str], ...]
 
     def to_json(self) -> dict[str, Any]:
-        return {
-            "name": self.part.name,
-            "apart": self.part.apart,
-            "level": self.results.level,
-            "data": self.results.data,
-            "rows": [one.to_json() for one in self.results.rows],
-            "failed": list(self.failed),
-        }
+        named = {"name": self.part.name, "apart": self.part.apart, "level": self.results.level}
+        rows = [one.to_json() for one in self.results.rows]
+        return {**named, "data": self.results.data, "rows": rows, "failed": list(self.failed)}
 
 
 def run_suite(
-    suite: Suite,
-    out: Path,
-    changes: dict[str, Any],
-    report: Report,
-    *,
-    processes: int = 1,
-    resume: bool = False,
-    overwrite: bool = False,
+    suite: Suite, out: Path, changes: dict[str, Any], report: Report, **how: Any
 ) -> list[PartResults]:
     """Run every unit of a suite that is not finished and write the tables of all into `out`;
-    `changes` are settings of the command line, and `processes` share each run.
-
-    A unit that fails is named in the result and in the tables, and the others go on. Raises
-    PlannerError for problems that keep the suite from starting.
+    `changes` are settings of the command line, `how` is given to `opened`. A unit that fails is
+    named in the result and in the tables, and the others go on. Raises PlannerError for problems
+    that keep the suite from starting.
     """
-    rerun = {"resume": resume, "overwrite": overwrite}
-    session = opened(suite, out, changes, report, processes=processes, **rerun)
+    session = opened(suite, out, changes, report, **how)
     session.run()
     parts, manifest = combine(session)
     _write(out, suite.title, parts, manifest)
@@ -81,41 +64,37 @@ def run_suite(
 
 
 def combine(session: Session) -> tuple[list[PartResults], dict[str, Any]]:
-    """The results of every part, and one manifest for all: the suite file, every data set, and what
-    each unit was run with and took.
-    """
+    """The results of every part, and one manifest: all files, what units ran with and took."""
     records = {
         unit.name: read_run(unit.settings.folder)
         for unit in session.units
         if (unit.settings.folder / folder.RUN).is_file()
     }
     settings = session.units[0].settings
-    vocabulary = load_vocabulary(settings.vocabulary)
+    vocabulary, data = load_vocabulary(settings.vocabulary), session.units
+    ran = {
+        unit.name: {
+            "arguments": arguments(unit.settings),
+            "seconds": session.seconds.get(unit.name),
+            "finished_before": unit.name in session.finished,
+            "jobs": records[unit.name].jobs if unit.name in records else {},
+            "costs": records[unit.name].costs if unit.name in records else {},
+        }
+        for unit in session.units
+    }
     manifest = build_manifest(
         "suite",
         seed=settings.seed,
         configuration={
             "title": session.suite.title,
-            "vocabulary": {"name": vocabulary.name, "sha256": vocabulary.sha256},
+            "vocabulary": vocabulary.named,
             "device": settings.device,
             "batch_size": settings.batch_size or "auto",
             "limit": session.changes.get("limit"),
             "processes": session.processes,
         },
-        inputs={
-            "suite": session.suite.path,
-            **{unit.part.name: unit.data.path for unit in session.units},
-        },
-        units={
-            unit.name: {
-                "arguments": arguments(unit.settings),
-                "seconds": session.seconds.get(unit.name),
-                "finished_before": unit.name in session.finished,
-                "jobs": records[unit.name].jobs if unit.name in records else {},
-                "costs": records[unit.name].costs if unit.name in records else {},
-            }
-            for unit in session.units
-        },
+        inputs={"suite": session.suite.path, **{one.part.name: one.data.path for one in data}},
+        units=ran,
     )
     parts = []
     for part in session.suite.parts:
@@ -135,11 +114,11 @@ def _part(
     found: list[Measured] = []
     failed: list[dict[str, str]] = []
     for unit in units:
-        record = records.get(unit.name)
+        record, n = records.get(unit.name), len(data.samples)
         every = measured_in(unit.settings.folder, record) if record else []
         measured = {one.system.configuration: one for one in every}
         for name in part.settings.configurations:
-            entry, n = measured.get(name), len(data.samples)
+            entry = measured.get(name)
             answers = sum(sample.id in entry.predictions for sample in data.samples) if entry else 0
             if entry is not None and answers == n:
                 found.append(entry)
@@ -160,9 +139,7 @@ def _part(
 
 
 def _write(out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]) -> None:
-    """Write PART/ and the overview of all parts into `out`; results.json last, so that it is there
-    only when all is.
-    """
+    """Write PART/ and the overview into `out`, results.json last: then all is there."""
     for one in parts:
         where = out / one.part.name
         where.mkdir(parents=True, exist_ok=True)
@@ -192,21 +169,19 @@ def _overview(parts: Sequence[PartResults]) -> Table:
             cells = [replace(cell, mark="") for cell in found.cells(FIGURES)]
             rows.append(row(found.system.label, found.configuration, *cells, kind=found.kind))
         for entry in one.failed:
-            blank = [""] * (len(FIGURES) - 1)
-            rows.append(
-                row(entry["label"], heading(entry["configuration"]), "not measured", *blank)
-            )
+            cells_of = ("not measured", *[""] * (len(FIGURES) - 1))
+            rows.append(row(entry["label"], heading(entry["configuration"]), *cells_of))
     heads = ("Configuration", *(METRIC[name].title for name in FIGURES))
-    return Table("overview", "", "", "Model", heads, tuple(rows), texts=1)
+    return Table("Model", heads, rows, texts=1)
 
 
 def _failed(parts: Sequence[PartResults]) -> Table:
-    rows = tuple(
+    rows = [
         row(one.part.name, entry["label"], heading(entry["configuration"]), entry["reason"])
         for one in parts
         for entry in one.failed
-    )
-    return Table("failed", "", "", "Data", ("Model", "Configuration", "Why"), rows, texts=3)
+    ]
+    return Table("Data", ("Model", "Configuration", "Why"), rows, texts=3)
 
 
 def _not_measured(name: str, one: PartResults) -> str:
@@ -223,9 +198,7 @@ def _not_measured(name: str, one: PartResults) -> str:
 
 
 def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
-    """A line per data set, candidate and configuration with every metric; rates are fractions.
-    Failed ones have a reason and no figures.
-    """
+    """A line per data set, candidate and configuration with every metric, or why it failed."""
     heads = ["data", "level", "apart", "n", "model", "candidate", "configuration", "status"]
     figures = [f"{name}{end}" for name in METRICS for end in ("", "_low", "_high")]
     yield [*heads, "reason", *figures]
@@ -236,8 +209,15 @@ def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
             status = "baseline" if system.is_baseline else "measured"
             bounds = [one for name in METRICS for one in found.figure(name).to_json().values()]
             values = [None if bound is None else f"{bound:.6g}" for bound in bounds]
-            named = [system.label, system.candidate, system.configuration, status, None]
-            yield [*common, *named, *values]
+            yield [
+                *common,
+                system.label,
+                system.candidate,
+                system.configuration,
+                status,
+                None,
+                *values,
+            ]
         for entry in one.failed:
             named = [entry[key] for key in ("label", "candidate", "configuration")]
             yield [*common, *named, "failed", entry["reason"], *[None] * len(figures)]

@@ -1,6 +1,4 @@
-"""Running a suite: unit after unit, each in a process of its own; one that fails is named and the
-others go on.
-"""
+"""Running a suite: unit after unit, a process each; one that fails is named, the others go on."""
 
 from __future__ import annotations
 
@@ -22,9 +20,7 @@ POLL = 1.0
 
 
 class State(NamedTuple):
-    """The state of a session: the unit that runs (counted from 1), its queries, and seconds left,
-    None while nothing can be said.
-    """
+    """The unit that runs (counted from 1), its queries, and seconds left in all, None: unknown."""
 
     unit: int
     units: int
@@ -100,9 +96,7 @@ class Session:
         self.failures |= {(unit.name, name): reason for name, reason in reasons.items()}
 
     def _state(self, index: int, begun: float) -> State:
-        """The time left is that of the queries left at the pace of this session, in proportion to
-        the candidates' sizes.
-        """
+        """The time left: the queries left at this session's pace, in proportion to sizes."""
         unit = self.units[index]
         written = {one.name: _written(one) for one in self.units}
         size = {one.name: one.candidate.parameters or 1 for one in self.units}
@@ -135,11 +129,11 @@ def opened(
     overwrite: bool = False,
 ) -> Session:
     """A suite in its folder, checked; whoever calls holds the folder. `changes` are settings of the
-    command line. Raises PlannerError, also when data changed since an earlier session.
+    command line, and `processes` share each run. Raises PlannerError, also when data changed since
+    an earlier session.
     """
     units = make_units(suite, out, changes)
-    hint = "give --resume to go on, --overwrite to start anew, or another --out"
-    folder.check_folder(out, () if resume or overwrite else (SUITE,), hint)
+    folder.check_folder(out, () if resume or overwrite else (SUITE,), folder.GO_ON)
     if overwrite:
         (out / SUITE).unlink(missing_ok=True)
         for unit in units:

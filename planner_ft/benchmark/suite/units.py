@@ -1,6 +1,4 @@
-"""The units of a suite: one candidate on one data set, each a process and a run folder of its
-own.
-"""
+"""The units of a suite: a candidate on a data set, each a process and a run folder of its own."""
 
 from __future__ import annotations
 
@@ -23,10 +21,7 @@ from planner_ft.vocabulary import load_vocabulary
 LOG = "log.txt"
 PATIENCE = 20.0
 """Seconds that an ended process has to go by itself."""
-LAUNCH = (
-    *("--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no"),
-    "--multi_gpu",
-)
+LAUNCH = ["--num_machines", "1", "--mixed_precision", "no", "--dynamo_backend", "no", "--multi_gpu"]
 
 
 @dataclass(frozen=True)
@@ -63,9 +58,7 @@ class Unit:
 
 
 def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Unit]:
-    """Every candidate on every data set, a candidate's after one another; `changes` are settings of
-    the command line. Raises PlannerError for problems that no run could start with.
-    """
+    """Every candidate on every data set, with the command line's `changes`. Raises PlannerError."""
     parts: list[tuple[Part, BenchData]] = []
     for part in suite.parts:
         limits = (part.settings.limit, changes.get("limit"))
@@ -90,9 +83,7 @@ def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Unit]:
             adapter = suite.adapters.get(candidate.name, {}).get(part.settings.level)
             settings = replace(
                 part.settings,
-                candidates=(
-                    str(candidate.folder) if candidate.source == "path" else candidate.name,
-                ),
+                candidates=(candidate.given_as,),
                 adapters=(str(adapter),) if adapter else (),
                 out=out / part.name / slug,
             )
@@ -118,10 +109,7 @@ def fingerprint(plan: Plan) -> dict[str, Any]:
 
 
 class Process:
-    """The process of a running unit: the same command line, ended with its parent, its output kept
-    in a log. Leaving the `with` block ends it if it has not ended itself. Ctrl-C reaches it as that
-    end alone.
-    """
+    """A unit's process, ended with its parent and the `with` block, its output in a log."""
 
     def __init__(self, arguments: list[str], log: Path, processes: int = 1) -> None:
         self.log = log
@@ -149,9 +137,7 @@ class Process:
             self.child.wait()
 
     def problem(self) -> str | None:
-        """Why it failed, in one line: the sentence with which a command refused, else its last
-        line; None when it did not.
-        """
+        """Why it failed: the sentence with which a command refused, else its last line, or None."""
         code = self.child.wait()
         if code == 0:
             return None

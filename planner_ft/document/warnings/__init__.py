@@ -45,7 +45,7 @@ def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -
 
 
 def _answer_warnings(document: Mapping[str, Any]) -> Iterator[Warning]:
-    """Invalid answers, a doubtful origin, a plan without tasks, skills that are stale or missing."""
+    """Invalid answers, a doubtful origin, a plan without tasks, stale or missing skills."""
     if document.get("problems"):
         problem = document["problems"][0]
         yield warning("invalid-answer", f"The Mission Agent's answer is not valid: {problem}.")

@@ -8,9 +8,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.document.language import Clause, Language, language, read_clauses
+from planner_ft.document.language import Ask, Clause, Language, language, read_clauses
 from planner_ft.document.track import place_of
-from planner_ft.document.warnings.warning import Warning, quoted, warning
+from planner_ft.document.warnings.warning import Warning, named, quoted, warning
 from planner_ft.facts import unknown_words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import without_geographic
@@ -21,6 +21,10 @@ from planner_ft.vocabulary.plans import step_skills
 
 STEM = 5
 """First letters by which a word is found again."""
+NEAR = 24
+"""Characters in which words that rule something out stand before it."""
+ARTICLE = 3
+"""Words before a noun among which its article is."""
 UNKNOWN = 0.55
 """The share of unknown words from which a command may be in another language
 (benchmarks/language_check.py).
@@ -35,8 +39,11 @@ def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Ite
     planned, spoken = {task["title"] for task in document["tasks"]}, language(vocabulary)
     texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
     declined = " ".join(text for text in texts if spoken.words["declined"].search(text)).casefold()
-    for clause in read_clauses(document["command"], vocabulary):
-        for words, start in _unanswered(clause, planned, spoken):
+    clauses = read_clauses(document["command"], vocabulary)
+    gone = {ask for ask in spoken.asks if _withdrawn(ask, clauses, spoken)}
+    yield from _planned_still(document, gone, clauses, spoken)
+    for clause in clauses:
+        for words, start in _unanswered(clause, planned, spoken, gone, vocabulary):
             if words.casefold() not in declined:
                 asked = quoted(clause.text[start:])
                 text = f'The command asks: "{asked}"; no task of the plan does that.'
@@ -58,13 +65,43 @@ def other_language(command: str) -> str | None:
     return f"{text} misspelt, and the plan is what could be read."
 
 
-def _unanswered(clause: Clause, planned: set[str], spoken: Language) -> Iterator[tuple[str, int]]:
+def _withdrawn(ask: Ask, clauses: Sequence[Clause], spoken: Language) -> str | None:
+    """The words that rule a task out, where nothing behind them asks for it again."""
+    last = None
+    for clause in (one for one in clauses if not one.corrected):
+        for match in ask.named.finditer(clause.text):
+            before = clause.text[max(0, match.start() - NEAR) : match.start()]
+            ruled_out = spoken.words["exclusion"].search(before)
+            if ruled_out and clause.excluded is not None and clause.excluded >= clause.start:
+                last = quoted(clause.text.strip(" ,;"))
+            else:
+                last = None
+    return last
+
+
+def _planned_still(
+    document: Mapping[str, Any], gone: set[Ask], clauses: Sequence[Clause], spoken: Language
+) -> Iterator[Warning]:
+    """A task that the command takes back at last, and that the plan has."""
+    for ask in (one for one in gone if len(one.tasks) == 1):
+        own = [task for task in document["tasks"] if task["title"] in ask.tasks]
+        words = _withdrawn(ask, clauses, spoken)
+        if len(own) == 1 and words:
+            text = f'The command says "{words}", and {named(own[0])} is in the plan.'
+            yield warning("contradiction", text, own[0], about=words.casefold())
+
+
+def _unanswered(
+    clause: Clause, planned: set[str], spoken: Language, gone: set[Ask], vocabulary: Vocabulary
+) -> Iterator[tuple[str, int]]:
     """(words, where in the clause) that ask for an unplanned task, or one that is impossible."""
     if clause.corrected:
         return
     sends = any(ask.sends and ask.said.search(clause.text) for ask in spoken.asks)
-    for ask in spoken.asks:
+    for ask in (one for one in spoken.asks if one not in gone):
         match = ask.said.search(clause.text)
+        if match and any(vocabulary.task[title].docks for title in ask.tasks):
+            match = match if not _is_noun(clause.text, match.start(), spoken) else None
         # Data to be sent is named by how it came about, which may be long ago: "send the panorama".
         missing = not ask.tasks & planned and (ask.sends or not sends)
         if match and missing and clause.wants(clause.start + match.start()):
@@ -73,6 +110,12 @@ def _unanswered(clause: Clause, planned: set[str], spoken: Language) -> Iterator
     # A plan without tasks says itself why.
     if planned and impossible and clause.wants(clause.start):
         yield impossible[0], 0
+
+
+def _is_noun(text: str, start: int, spoken: Language) -> bool:
+    """Whether a word stands behind an article and two other words at most: "the dry dock"."""
+    before = text[:start].split()[-ARTICLE:]
+    return any(spoken.words["determiner"].fullmatch(word) for word in before)
 
 
 # ---------------------------------------------------------------- instructions in other words
@@ -135,8 +178,8 @@ def _lost_instruction(clause: Clause, spoken: Language, planned: str) -> Iterato
         return
     said_words = re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
     empty = [spoken.words[name] for name in ("nothing", "water", "boundary", "determiner")]
-    named = [word for word in said_words if not any(one.fullmatch(word) for one in empty)]
-    if named and not any(word[:STEM] in planned for word in said_words):
+    nouns = [word for word in said_words if not any(one.fullmatch(word) for one in empty)]
+    if nouns and not any(word[:STEM] in planned for word in said_words):
         said = f'The command asks: "{quoted(text)}"; no task of the plan does that.'
         yield warning("not-planned", said, about=text.casefold())
 

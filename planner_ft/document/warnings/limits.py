@@ -48,7 +48,9 @@ def _broken(
 ) -> tuple[str, str] | None:
     """(task, how) of the first thing that breaks a limit; no task: the whole plan does."""
     kind, values = limit["kind"], limit["values"]
-    legs = [leg for leg in path.legs if leg.points]
+    held = [document["tasks"][place - 1] for place in limit["tasks"]]
+    names = {task["id"] for task in held}
+    legs = [leg for leg in path.legs if leg.points and leg.task in names]
     if kind in ("fence", "keep_out_area"):
         return _area(kind, values["polygon"], legs)
     if kind == "keep_out" and "position" in values:
@@ -61,12 +63,12 @@ def _broken(
         too_far = farthest > values["distance"] + TOLERANCE
         return (task, f"goes {farthest:.0f} m away from home") if too_far else None
     if kind == "speed":
-        return _too_fast(values["speed"], document, vocabulary)
-    if kind == "duration":
+        return _too_fast(values["speed"], held, vocabulary)
+    if kind == "duration" and len(held) == len(document["tasks"]):
         seconds = (document.get("estimate") or {}).get("seconds", 0)
         return ("", f"The plan takes about {seconds} s") if seconds > values["duration"] else None
     if kind == "no_recording":
-        return _recording(limit, document, vocabulary)
+        return _recording(limit, held, vocabulary)
     return None
 
 
@@ -99,9 +101,9 @@ def _too_close(values: Mapping[str, Any], legs: list[Leg]) -> tuple[str, str] | 
 
 
 def _too_fast(
-    limit: float, document: Mapping[str, Any], vocabulary: Vocabulary
+    limit: float, tasks: list[dict[str, Any]], vocabulary: Vocabulary
 ) -> tuple[str, str] | None:
-    for task in document["tasks"]:
+    for task in tasks:
         for item in vocabulary.task[task["title"]].parameters:
             speed = task["parameters"].get(item.name) if item.unit == "m/s" else None
             if speed is not None and speed > limit:
@@ -110,12 +112,12 @@ def _too_fast(
 
 
 def _recording(
-    limit: Mapping[str, Any], document: Mapping[str, Any], vocabulary: Vocabulary
+    limit: Mapping[str, Any], tasks: list[dict[str, Any]], vocabulary: Vocabulary
 ) -> tuple[str, str] | None:
     """A step that records: anywhere, or where the task prompt names the place."""
     forbidden = load_limits(vocabulary)["no_recording"].forbids
     thing = limit["values"].get("object", "")
-    for task in document["tasks"]:
+    for task in tasks:
         prompt = without_limits(task["task_prompt"], vocabulary)
         if thing and thing.casefold() not in prompt.casefold():
             continue

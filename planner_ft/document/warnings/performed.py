@@ -19,6 +19,8 @@ SIZE, SPACING = ("width", "length"), "spacing"
 """The parameters of a grid: extent along x and y, and between lanes."""
 COURSE = ("heading", "max_dist")
 """Those of a line: its course and its length."""
+MEASURES = ("m", "s", "m/s", "count")
+"""Units of what cannot be nothing; an angle and a share can."""
 TURNS = ("turn-to", "turn-by")
 SLACK, SHARE = 0.5, 0.02
 """Metres, and the share of a length, by which waypoints may differ from it."""
@@ -30,6 +32,7 @@ def performed_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> I
     Waypoints that were added for clearance count with neither.
     """
     for task in document["tasks"]:
+        yield from _nothing(task, vocabulary)
         steps = task["skill_sequence"] or []
         # A search may go anywhere.
         if not steps or task.get("stale") or task["title"] == vocabulary.locate:
@@ -42,8 +45,16 @@ def performed_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> I
             yield warning("not-performed", f"{named(task)}: {problem}.", task)
 
 
+def _nothing(task: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+    """A size, distance, time or count of a task that is nothing."""
+    for item in vocabulary.task[task["title"]].parameters:
+        if item.unit in MEASURES and task["parameters"].get(item.name) == 0:
+            text = f"{named(task)}: {item.name} is 0, with which nothing can be done."
+            yield warning("not-performed", text, task, item.name)
+
+
 def _waypoints(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
-    clearance = {mark["step"] for mark in task.get("added", ()) if mark["role"] == "navigation"}
+    clearance = {mark["step"] for mark in task.get("added", ()) if mark["kind"] == "clearance"}
     found = []
     for index, step in enumerate(task["skill_sequence"]):
         skill = step["navigation_skill"]
@@ -70,8 +81,9 @@ def _geometry_problem(
         turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
         return f"it turns {turns} times for {count:g} sectors" if turns < count - 1 else None
     length = given.get(SIZE[1])
-    if known.pattern == "pass" and is_number(length) and len(points) > 1:
-        run = max(math.dist(*pair) for pair in itertools.combinations(points, 2))
+    if known.pattern == "pass" and is_number(length) and points:
+        pairs = itertools.combinations(points, 2)
+        run = max((math.dist(*pair) for pair in pairs), default=0.0)
         if run < length * (1 - SHARE) - SLACK:
             return f"its waypoints are {run:.3g} m apart, and its length is {length:g} m"
     return None

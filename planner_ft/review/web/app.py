@@ -50,6 +50,7 @@ def web_app(session: Session, door: Door) -> ASGIApp:
             yield
         finally:
             looking.cancel()
+            session.runs.end()
             session.planning.stop()
             session.events.close()
 
@@ -88,6 +89,9 @@ def _api_routes(session: Session) -> list[Route]:
     async def state(_request: Request) -> Response:
         return Json(await run_in_threadpool(session.state))
 
+    async def track(_request: Request) -> Response:
+        return Json(await run_in_threadpool(session.runs.track))
+
     async def events(_request: Request) -> Response:
         news = session.events.listen()
         return responses.StreamingResponse(news, media_type="text/event-stream")
@@ -110,6 +114,9 @@ def _api_routes(session: Session) -> list[Route]:
     return [
         Route("/api/state", state),
         Route("/api/events", events),
+        Route("/api/track", track),
+        change(session.run, "revision", "name", "speed"),
+        change(session.abort, "name"),
         change(session.plan, "command", "locate"),
         change(session.edit, "revision", "edit"),
         change(session.undo, "revision"),
@@ -143,6 +150,8 @@ def _field(body: dict[str, Any], key: str) -> Any:
         value = value or {}
         fits = isinstance(value, dict) and all(map(_is_position, value.values()))
         expected = "an object of names with positions [x, y] in metres east and north of home"
+    elif key == "speed":
+        fits, expected = type(value) in (int, float), "a number"
     elif key == "edit":
         fits, expected = isinstance(value, dict), "an object"
     elif key == "acknowledged":

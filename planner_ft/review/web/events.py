@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from planner_ft.support.files import compact_json
 
-Kind = Literal["progress", "tasks", "skills", "state", "error"]
+Kind = Literal["progress", "tasks", "skills", "state", "error", "run"]
 
 KEEP_ALIVE = 15.0
 """Seconds without an event after which a comment shows that the connection still stands."""

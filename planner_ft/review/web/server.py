@@ -75,6 +75,7 @@ class _Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self.session.planning.stop()
+        self.session.runs.end()
         self.session.events.close()
         await super().shutdown(sockets)
 

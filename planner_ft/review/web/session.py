@@ -21,6 +21,7 @@ from planner_ft.review.log import log_beside
 from planner_ft.review.store import ChangedError, add_plan, plan_names, signature
 from planner_ft.review.web.events import Events
 from planner_ft.review.web.planning import Planning
+from planner_ft.review.web.run import Runner, Runs
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
@@ -65,6 +66,7 @@ class WebSettings:
     folder: Path | None = None
     planning: PlanSettings = field(default_factory=PlanSettings)
     origin: Origin | None = None
+    runner: Runner | None = None
 
     def __post_init__(self) -> None:
         """Raise PlannerError for a port that does not exist."""
@@ -98,6 +100,7 @@ class Session:
         self.origin = settings.origin
         self.events = Events()
         self.planning = Planning(settings.planning, self.events, self.tell_state)
+        self.runs = Runs(settings.runner, self.log, vocabulary.source, self.events, self.tell_state)
         self._known: Any = self._signature()
         self._shown: tuple[Any, State] = (None, {})
 
@@ -112,6 +115,7 @@ class Session:
             "busy": self.planning.busy,
             "vocabulary": vocabulary_json(self.vocabulary),
             "plans": plan_names(self.folder),
+            "run": self.runs.as_json(),
         }
 
     def look(self) -> None:
@@ -152,6 +156,16 @@ class Session:
         """Record a rejection."""
         self._desk(revision).reject(name, reason)
         return self._changed()
+
+    def run(self, revision: str, name: str, speed: float) -> State:
+        """Carry the approved plan out, watched by the pages."""
+        self.runs.begin(self._desk(revision), name, speed)
+        return self.state()
+
+    def abort(self, name: str) -> State:
+        """Stop the run at once."""
+        self.runs.abort(name)
+        return self.state()
 
     def open(self, name: str) -> State:
         """Show another plan of the folder. Raises PlannerError."""

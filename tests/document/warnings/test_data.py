@@ -93,3 +93,30 @@ def test_an_unknown_skill_in_the_ontology_is_named(tmp_path: Path) -> None:
 def test_a_command_in_unknown_words_is_told(command: str, *, warned: bool) -> None:
     kinds = [item["kind"] for item in command_warnings({"command": command, "tasks": []}, USV)]
     assert ("unknown-language" in kinds) is warned
+
+
+def test_data_that_are_asked_for_everywhere_and_gathered_once_are_named() -> None:
+    legs = []
+    for x, skills in ((40, ["GetSeabedDepth"]), (80, [])):
+        one = step("GoToXY", {"x": x, "y": 20})
+        one["perception_skills"] = [{"name": name, "parameters": {}} for name in skills]
+        legs.append(task("Transit", {"target_position": [x, 20]}, [one]))
+    for words, count in (("on both legs", 1), ("on the way", 0)):
+        made = document(legs, command=f"Go to [40, 20], then [80, 20]. Log the depth {words}.")
+        texts = [one["text"] for one in made["warnings"] if one["kind"] == "data-not-planned"]
+        assert len(texts) == count
+        assert all("task 1, Transit alone gathers that" in text for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("words", "skill"),
+    [
+        ("drop a marker on it", "CreateMapMarker"),
+        ("read the name on it", "OCRScanning"),
+        ("log the environment sensors", "LogEnvironmentState"),
+    ],
+)
+def test_words_for_markers_names_and_the_environment_are_known(words: str, skill: str) -> None:
+    command = f"Go to [40, 20] and {words}."
+    assert len(warned(command)) == 1
+    assert warned(command, skill) == []

@@ -73,3 +73,14 @@ def test_a_panorama_that_does_not_look_round_is_named() -> None:
     assert found("HorizontalPanorama", {"sectors": 3}, looks) == []
     (text,) = found("HorizontalPanorama", {"sectors": 8}, looks)
     assert "it turns 3 times for 8 sectors" in text
+
+
+def test_a_pass_with_one_waypoint_and_values_of_nothing_are_named() -> None:
+    given = {"side_id": "west", "length": 60, "distance": 5}
+    (text,) = found("ParallelStructurePass", given, [step("GoToXY", {"x": 35, "y": 10})])
+    assert "its waypoints are 0 m apart, and its length is 60 m" in text
+    texts = found("BathymetryGridSurvey", {**GRID, "spacing": 0}, lanes([90, 110], 40, 60))
+    assert texts[0].endswith("spacing is 0, with which nothing can be done.")
+    assert found("SubseaCableTrack", {"start": [9, 9], "heading": 0}, [step("StationKeep")]) != []
+    turn = [step("NudgeYaw", {"delta_yaw": 0})]
+    assert not [one for one in found("PerformOrbit", {"arc": 0}, turn) if "arc" in one]

@@ -24,6 +24,14 @@ def orbit(arc: float) -> dict[str, Any]:
     return task("PerformOrbit", {"center": [60, 60], "radius": 20, "arc": arc}, None)
 
 
+def drift() -> dict[str, Any]:
+    return task("DriftAudit", {"duration": 60}, [step("DriftWithCurrent", {"time": 60})])
+
+
+def at(x: float) -> list[dict[str, Any]]:
+    return [to(x, 9), hold(60)]
+
+
 def kinds(command: str, *tasks: dict[str, Any], limits: tuple[str, ...] = ()) -> set[str]:
     plan = document([*tasks], command=command, constraints=limits)
     wanted = ("limit-lost", "value-lost", "repeat-lost", "contradiction")
@@ -56,6 +64,21 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0), to(9, 0)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
+        ("Go to 1,5 and be home by 15:00.", [to(1, 5), to(0, 0)], (), "limit-lost"),
+        ("Go home by way of 9,9.", [to(9, 9), to(0, 0)], (), None),
+        ("Go to 9,9, do not go near the pontoon at 70,20.", [to(9, 9)], (), "limit-lost"),
+        ("Go to 9,9 and don't go inside of the nets.", [to(9, 9)], (), "limit-lost"),
+        ("Go to 9,9, keep clear of the nets.", [to(9, 9)], ("Keep clear of the nets.",), None),
+        ("Hold at 9,9, 50 s, don't come within 50 m.", [to(9, 9), hold(50)], (), "limit-lost"),
+        ("Circle the mast at 60,60, radius 15.", [orbit(360)], (), "value-lost"),
+        ("Circle the mast at 60,60, radius 20.", [orbit(360)], (), None),
+        ("Circle it at 20 m. Actually 5 is enough.", [orbit(360)], (), "value-lost"),
+        ("Circle it at 9 m, then home. Actually 20 will do.", [orbit(360), to(0, 0)], (), None),
+        ("Circle it at 9 m, then home.", [orbit(360), to(0, 0)], (), "value-lost"),
+        ("Drift at 5,5. No drift after all.", [to(5, 5), drift()], (), "contradiction"),
+        ("Don't drift at 5,5 yet. Then drift.", [to(5, 5), drift()], (), None),
+        ("Hold a minute at 1,9, 2,9 and 3,9.", [*at(1), *at(2), *at(3)], (), None),
+        ("Hold a minute at 1,9, 2,9 and 3,9.", [*at(1), *at(2), to(3, 9)], (), "value-lost"),
         ("Come home, but do not come home.", [to(0, 0)], (), "contradiction"),
         ("Go to [9, 9]. Do not go to [9, 9].", [to(9, 9)], (), "contradiction"),
         ("Do not stop at 9,9, and come home.", [to(0, 0)], (), None),
@@ -78,3 +101,15 @@ def test_what_is_lost_is_told(
 def test_limits_of_time_and_axis_and_strange_instructions(command: str, kind: str) -> None:
     plan = document([to(9, 9), to(0, 0)], command=command)
     assert kind in [one["kind"] for one in plan["warnings"]]
+
+
+def test_a_known_place_that_the_command_names_wants_a_task() -> None:
+    command = "Inspect Kestrel and Osprey."
+    for chart, lost in (({"Osprey": (88, 40)}, True), ({"Heron": (88, 40)}, False)):
+        plan = document([to(40, 40)], command=command, chart=chart)
+        texts = [one["text"] for one in plan["warnings"] if one["kind"] == "value-lost"]
+        assert texts == (
+            ["The command speaks of Osprey, and no task is at [88, 40], where that is."] * lost
+        )
+    plan = document([to(88, 40)], command=command, chart={"Osprey": (88, 40)})
+    assert not [one for one in plan["warnings"] if one["kind"] == "value-lost"]

@@ -3,6 +3,7 @@
 import { metres, number, place, seconds } from "./format.js";
 import { gestures } from "./gestures.js";
 import { Areas, Grid, Legs, Places, Scale, Taken, Waypoints } from "./marks.js";
+import { Vessel } from "./run.js";
 import { Tray } from "./tray.js";
 import { html, useEffect, useMemo, useRef, useState } from "./vendor.js";
 import { fit, pan, project, round, snap, unproject, zoom } from "./view.js";
@@ -97,6 +98,7 @@ export function Chart({ store }) {
         <${Legs} store=${store} at=${at} />
         <${Places} store=${store} at=${at} taken=${taken} />
         <${Waypoints} store=${store} at=${at} size=${size} taken=${taken} />
+        <${Vessel} store=${store} at=${at} />
         ${aim && html`<g class="aim" transform=${`translate(${at(aim).join(" ")})`}><path d="M-22 0H22M0 -22V22" /><circle r="11" /><text x="14" y="-14">${place(aim)}</text></g>`}
         <${Scale} view=${view} size=${size} />
       </svg>

@@ -8,6 +8,7 @@ import { Changes } from "./changes.js";
 import { Facts, Provenance } from "./facts.js";
 import { Header, Messages } from "./header.js";
 import { Help, shortcut } from "./help.js";
+import { Run } from "./run.js";
 import { Store } from "./store.js";
 import { Tasks } from "./tasks.js";
 import { html, render, useEffect, useReducer, useState } from "./vendor.js";
@@ -37,6 +38,7 @@ function Page() {
       ? html`<nav class="jump" aria-label="Parts of the page">${PARTS.map(([goal, name]) => html`<a key=${goal} href=${`#${goal}`}>${name}</a>`)}</nav>
           <main class="plan">
             <div class="column told" key=${plan.path}>
+              <${Run} store=${store} />
               <${Warnings} store=${store} />
               <${Command} store=${store} />
               <${Changes} store=${store} />

@@ -2,6 +2,7 @@
 
 import { Refused, get, listen, post } from "./api.js";
 import { same } from "./format.js";
+import { watched } from "./run.js";
 
 const NOTHING_PLANNED = { tasks: null, skills: {} };
 
@@ -18,6 +19,7 @@ export class Store {
     this.draft = NOTHING_PLANNED; // what the agents have answered so far while they plan
     this.connected = true;
     this.placing = null; // the name of the target that is being placed on the chart
+    this.watch = null; // the run that is shown: {frames, at (null: the last frame), folder}
     this.sent = 0;
     this.shown = 0;
     this.changing = 0; // own changes that are not answered yet
@@ -35,6 +37,7 @@ export class Store {
         progress: (busy) => this.plan && this.set({ plan: { ...this.plan, busy } }),
         tasks: ({ tasks }) => this.set({ draft: { tasks, skills: {} }, notice: `The Mission Agent answered: ${tasks.length} tasks.` }),
         skills: ({ task, skill_sequence }) => this.set({ draft: { ...this.draft, skills: { ...this.draft.skills, [task]: skill_sequence || [] } } }),
+        run: (frame) => watched(this, frame),
         state: () => this.refresh(),
         error: ({ error }) => this.set({ alert: error, draft: NOTHING_PLANNED }) || this.refresh(),
       },

@@ -27,6 +27,7 @@ from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door
 from planner_ft.review.web.planning import Planning
 from planner_ft.review.web.session import Session, WebSettings
+from planner_ft.simulation.live import run_live
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
 from tests.browser import headless_chromium
@@ -207,7 +208,9 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
         door = Door("127.0.0.1", listener.getsockname()[1])
         session = Session(
             path,
-            WebSettings(folder=tmp_path, planning=PlanSettings(configuration="base")),
+            WebSettings(
+                folder=tmp_path, planning=PlanSettings(configuration="base"), runner=run_live
+            ),
             load_vocabulary(),
         )
         server = uvicorn.Server(
@@ -226,6 +229,7 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
     yield serve
     for server, session, thread in running:
         session.events.close()
+        session.runs.end()
         server.should_exit = True
         thread.join(PATIENCE)
 

@@ -1,0 +1,156 @@
+"""A vehicle under other names: what a model can only plan for by reading the vocabulary.
+
+Titles and keys are renamed, tasks that a group of samples does not need are dropped, the others
+stand in another order, and home, the unresolved place and the vehicle's name are others. What a
+task is for stands in its description, which stays.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from random import Random
+from typing import Any
+
+from planner_ft.facts.words import known_words
+from planner_ft.vocabulary import Task, Vocabulary
+
+KEPT, DESCRIBED = 0.2, 0.65
+"""Share of the names that stay, and of all that stay or are made of words of the description."""
+SMALL = frozenset(
+    [
+        "a",
+        "an",
+        "and",
+        "at",
+        "by",
+        "for",
+        "in",
+        "into",
+        "is",
+        "it",
+        "its",
+        "of",
+        "off",
+        "on",
+        "or",
+        "that",
+        "the",
+        "to",
+        "up",
+        "what",
+        "with",
+    ]
+)
+STYLES: tuple[Callable[[Sequence[str]], str], ...] = (
+    lambda words: "".join(word.capitalize() for word in words),
+    lambda words: "".join(word.capitalize() for word in words),
+    "_".join,
+    lambda words: "_".join(words).upper(),
+    lambda words: words[0] + "".join(word.capitalize() for word in words[1:]),
+)
+HOMES = ((0, 0), (0, 0), (5, 5), (-3, 12), (10, 0), (0, -20), (1, 1), (100, 50))
+UNRESOLVED = ((-99, -99), (-99, -99), (-1, -1), (999, 999), (-999, -999), (9999, 9999))
+
+
+@dataclass(frozen=True)
+class View:
+    """A renamed vocabulary, and how records of the own one are put into it."""
+
+    vocabulary: Vocabulary
+    titles: dict[str, str]
+    keys: dict[str, str]
+    places: dict[tuple[float, ...], tuple[float, float]]
+
+    def record(self, record: dict[str, Any]) -> dict[str, Any]:
+        """A mission record with the view's names and places."""
+        expected = record["expected"]
+        tasks = [
+            {
+                "title": self.titles[task["title"]],
+                "parameters": {
+                    self.keys[key]: self._placed(value) for key, value in task["parameters"].items()
+                },
+                "task_prompt": self._said(task["task_prompt"]),
+            }
+            for task in expected["tasks"]
+        ]
+        texts = {
+            key: list(map(self._said, expected[key])) for key in ("assumptions", "constraints")
+        }
+        return {"prompt": record["prompt"], "expected": {"tasks": tasks, **texts}}
+
+    def _placed(self, value: Any) -> Any:
+        place = self.places.get(tuple(value)) if _is_place(value) else None
+        return list(place) if place else value
+
+    def _said(self, text: str) -> str:
+        for own, other in self.places.items():
+            text = text.replace(str(list(own)), str(list(other)))
+        return text
+
+
+def view(
+    vocabulary: Vocabulary,
+    records: Sequence[dict[str, Any]],
+    others: Sequence[Vocabulary],
+    rng: Random,
+) -> View:
+    """The vehicle under other names, with the tasks of `records` and some of the rest; `others`
+    lend it the name of a vehicle and of a frame.
+    """
+    used = {task["title"] for record in records for task in record["expected"]["tasks"]}
+    share = rng.uniform(0.3, 1.0)
+    tasks = [task for task in vocabulary.tasks if task.title in used or rng.random() < share]
+    if rng.random() < 0.7:
+        rng.shuffle(tasks)
+    titles = _names([(task.title, task.description) for task in tasks], rng)
+    keys = _names([(one.name, one.description) for task in tasks for one in task.parameters], rng)
+    places = {vocabulary.home: rng.choice(HOMES), vocabulary.unresolved: rng.choice(UNRESOLVED)}
+    renamed = replace(
+        vocabulary,
+        title=rng.choice(others).title,
+        frame=rng.choice(others).frame,
+        home=places[vocabulary.home],
+        unresolved=places[vocabulary.unresolved],
+        tasks=tuple(_renamed(task, titles, keys) for task in tasks),
+    )
+    return View(renamed, titles, keys, places)
+
+
+def _renamed(task: Task, titles: dict[str, str], keys: dict[str, str]) -> Task:
+    parameters = tuple(replace(one, name=keys[one.name]) for one in task.parameters)
+    needed = tuple(keys[name] for name in task.require_any)
+    return replace(task, title=titles[task.title], parameters=parameters, require_any=needed)
+
+
+def _names(described: Sequence[tuple[str, str]], rng: Random) -> dict[str, str]:
+    """Other names for names with their descriptions, all different, in one style."""
+    style, found = rng.choice(STYLES), dict[str, str]()
+    kept = rng.choice((0.0, KEPT, KEPT, 1.0))
+    for name, description in described:
+        if name in found:
+            continue
+        other = name if rng.random() < kept else style(_words(description, rng))
+        while other in found.values():
+            other += rng.choice("ABCDEFGH23456789")
+        found[name] = other
+    return found
+
+
+def _words(description: str, rng: Random) -> list[str]:
+    """One to three words of a description, or others that have nothing to do with it."""
+    own = [word for word in re.findall("[a-z]{3,}", description.lower()) if word not in SMALL]
+    count = rng.choice((1, 2, 2, 3))
+    if own and rng.random() < DESCRIBED:
+        places = sorted(rng.sample(range(len(own)), min(count, len(own))))
+        return [own[place] for place in places]
+    return [rng.choice(_ANY) for _ in range(min(count, 2))]
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2
+
+
+_ANY = tuple(sorted(word for word in known_words() if 3 <= len(word) <= 9 and word.isascii()))

@@ -1,0 +1,177 @@
+"""Carrying the approved plan out while the page watches: one run at a time, with an abort."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+from planner_ft.review.approval import record_run
+from planner_ft.review.desk import Desk
+from planner_ft.review.web.events import Events
+from planner_ft.review.web.planning import BusyError
+from planner_ft.support.errors import PlannerError
+
+SPEEDS = (1, 2, 5, 10, 20, 50)
+"""Simulated seconds in one second."""
+PATIENCE = 2.0
+"""Seconds within which a run that is aborted has ended; its files come later."""
+Frame = dict[str, Any]
+"""t (s), pose [x, y, yaw], task, step, skills, left (s): a moment of a run."""
+
+
+class Runner(Protocol):
+    """What carries a plan out (planner_ft.simulation.live)."""
+
+    def __call__(
+        self,
+        plan: Path,
+        log: Path,
+        folder: Path,
+        vocabulary: str,
+        speed: float,
+        tell: Callable[[Frame], None],
+        stop: Stop,
+    ) -> dict[str, Any]:
+        """Run a plan; its outcome, reason and seconds. Raises PlannerError."""
+
+
+@dataclass
+class Stop:
+    """Ends a run at its next step once it is `set`; `reason` stands in its log."""
+
+    reason: str = ""
+    event: threading.Event = field(default_factory=threading.Event)
+
+
+@dataclass
+class _Run:
+    """A run, and everything that was seen of it."""
+
+    desk: Desk
+    by: str
+    folder: Path
+    speed: int
+    stop: Stop = field(default_factory=Stop)
+    frames: list[Frame] = field(default_factory=list)
+    outcome: str = "running"
+    reason: str = ""
+
+    @property
+    def ended(self) -> bool:
+        """Whether its files are written."""
+        return self.outcome != "running"
+
+    @property
+    def is_on(self) -> bool:
+        """Whether it moves."""
+        return not self.ended and not self.stop.event.is_set()
+
+
+class Runs:
+    """The last run of a session. Actions come from any thread."""
+
+    def __init__(
+        self,
+        runner: Runner | None,
+        log: Path,
+        vocabulary: str,
+        events: Events,
+        changed: Callable[[], None],
+    ) -> None:
+        self.runner, self.log, self.vocabulary = runner, log, vocabulary
+        self.events, self.changed = events, changed
+        self.last: _Run | None = None
+        self._thread: threading.Thread | None = None
+        self._lock = threading.Lock()
+
+    def as_json(self) -> dict[str, Any]:
+        """The last run without its frames; "status" None before the first."""
+        known: dict[str, Any] = {"available": self.runner is not None, "speeds": SPEEDS}
+        run = self.last
+        if run is None:
+            return {**known, "status": None}
+        told = {"plan": run.desk.path.name, "by": run.by, "speed": run.speed}
+        told |= {"folder": run.folder.name, "reason": run.reason or run.stop.reason}
+        return {**known, **told, "status": run.outcome if run.is_on or run.ended else "stopped"}
+
+    def track(self) -> dict[str, Any]:
+        """All frames so far, for a page that comes later and for the replay."""
+        with self._lock:
+            return {"frames": list(self.last.frames) if self.last else []}
+
+    def begin(self, desk: Desk, name: str, speed: float) -> None:
+        """Run an approved plan. Raises PlannerError, and BusyError while one is run."""
+        if self.runner is None:
+            raise PlannerError("there is no simulator here; run `plannerft simulate` instead")
+        if speed not in SPEEDS:
+            raise PlannerError(f"speed {speed:g}: must be one of {', '.join(map(str, SPEEDS))}")
+        approval = desk.approval()
+        if approval.status != "approved":
+            raise PlannerError(f"{desk.path.name}: {approval.text}; approve it before it is run")
+        with self._lock:
+            if self.last is not None and self.last.is_on:
+                problem = f"a run of {self.last.desk.path.name} is on"
+                raise BusyError(f"{problem}; abort it, or wait for its end")
+            folder = _free(desk.path)
+            words = f"simulated, speed {speed:g}, into {folder.name}"
+            record_run("run", desk.document, self.log, name, words)
+            self.last = _Run(desk, name.strip(), folder, int(speed))
+            self._thread = threading.Thread(
+                target=self._carry_out, args=(self.runner, self.last), daemon=True
+            )
+        self._thread.start()
+        self.changed()
+
+    def abort(self, name: str) -> None:
+        """Stop the run at once: no frame comes after this. Raises PlannerError without one."""
+        with self._lock:
+            run = self.last
+            if run is None or not run.is_on:
+                raise PlannerError("no run is on; there is nothing to abort")
+            by = name.strip() or run.by
+            run.stop.reason = f"aborted by {by}"
+            run.stop.event.set()
+            at = run.frames[-1]["t"] if run.frames else 0.0
+        record_run("aborted", run.desk.document, self.log, by, f"after {at:g} s, {run.folder.name}")
+        assert self._thread is not None
+        self._thread.join(PATIENCE)
+        self.changed()
+
+    def end(self) -> None:
+        """The server ends, and so does a run."""
+        if self.last is not None:
+            self.last.stop.reason = self.last.stop.reason or "the review was ended"
+            self.last.stop.event.set()
+
+    def _carry_out(self, runner: Runner, run: _Run) -> None:
+        def tell(frame: Frame) -> None:
+            with self._lock:
+                if not run.stop.event.is_set():
+                    run.frames.append(frame)
+                    self.events.tell("run", frame)
+
+        where = run.desk.path, self.log, run.folder, self.vocabulary, run.speed
+        try:
+            ended = runner(*where, tell, run.stop)
+        except Exception as error:
+            text = str(error) if isinstance(error, PlannerError) else repr(error)
+            ended = {"outcome": "failed", "reason": text}
+        outcome, reason = ended["outcome"], ended["reason"]
+        text = f"{outcome}{f': {reason}' if reason else ''}, {run.folder.name}"
+        try:
+            record_run("ended", run.desk.document, self.log, run.by, text)
+        except PlannerError as error:
+            reason = f"{reason}; {error}".removeprefix("; ")
+        run.outcome, run.reason = outcome, reason
+        self.changed()
+
+
+def _free(plan: Path) -> Path:
+    """A folder beside the plan that no run has yet."""
+    number = 1
+    while (folder := plan.with_suffix(f".run-{number:02d}")).exists():
+        number += 1
+    return folder

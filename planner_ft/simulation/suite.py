@@ -1,0 +1,236 @@
+"""Suites of missions: from the command over both agents and an approval to runs in simulators."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from planner_ft.benchmark.gate import Kind, key_problems
+from planner_ft.benchmark.statistics import Estimate
+from planner_ft.document import build, read_document, write_document
+from planner_ft.document.track import Point
+from planner_ft.document.vehicle import load_vehicle
+from planner_ft.planning.locations import Position
+from planner_ft.review import approve, log_beside
+from planner_ft.review.verify import approval_of
+from planner_ft.simulation.fast import Floats
+from planner_ft.simulation.outlines import read_outlines
+from planner_ft.simulation.output import COLUMNS, cell, number, published_missions
+from planner_ft.simulation.run import MANIFEST, RESULTS, SimulationSettings, simulate
+from planner_ft.support.alone import alone
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import check_writable, read_json, read_toml, write_json, write_text
+from planner_ft.support.tables import Table, TableRow, csv_table, markdown_table, row
+
+if TYPE_CHECKING:
+    from planner_ft.planning.planner import Planner
+
+KEYS: dict[str, Kind] = {"title": str, "simulators": [str], "seed": int, "missions": [dict]}
+MISSION_KEYS: dict[str, Kind] = {
+    **dict.fromkeys(("name", "command", "published", "survey"), str),
+    "locate": dict,
+    "outlines": dict,
+    "runs": int,
+    "tolerance": float,
+    "starts": [list],
+}
+SUITE, PLAN = "suite.json", "plan.json"
+REASON = "approved by a suite, read by nobody: for simulation alone"
+Report = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class Mission:
+    """A command and its runs; `published` names its line in published.csv, `locate` says where
+    places are, to the agents and in the world; `outlines` as --outline.
+    """
+
+    name: str
+    command: str
+    published: str
+    locate: Mapping[str, Position]
+    runs: int
+    tolerance: float
+    starts: tuple[Point, ...]
+    survey: str
+    outlines: Mapping[str, Floats]
+
+    @property
+    def folder(self) -> str:
+        return re.sub(r"[^a-z0-9]+", "-", self.name.lower()).strip("-")
+
+
+@dataclass(frozen=True)
+class Suite:
+    """A suite file, and its content."""
+
+    path: Path
+    raw: Mapping[str, Any]
+    missions: tuple[Mission, ...]
+
+    @property
+    def simulators(self) -> list[str]:
+        return list(dict.fromkeys(self.raw["simulators"]))
+
+
+@dataclass
+class Ran:
+    """What a suite came to: results.json by mission and simulator."""
+
+    results: dict[tuple[str, str], dict[str, Any]] = field(default_factory=dict)
+
+
+def read_suite(path: Path) -> Suite:
+    """A suite file. Raises PlannerError that lists every mistake."""
+    raw = read_toml(path)
+    problems = key_problems(raw, KEYS, KEYS)
+    missions: list[Mission] = []
+    for index, values in enumerate([] if problems else raw["missions"]):
+        found = key_problems(values, MISSION_KEYS, ("name", "command"))
+        try:
+            missions += [] if found else [_mission(values)]
+        except (PlannerError, TypeError, ValueError) as error:
+            found = [str(error) if isinstance(error, PlannerError) else "a place is no [x, y]"]
+        problems += [f"missions[{index}]: {text}" for text in found]
+    names = Counter(one.folder for one in missions)
+    problems += [f"two missions are named {name}" for name, count in names.items() if count > 1]
+    if problems:
+        raise PlannerError(f"{path}: {'; '.join(problems)}")
+    suite = Suite(path, raw, tuple(missions))
+    for mission in missions:
+        for simulator in suite.simulators:
+            _settings(suite, mission, simulator, Path())
+    return suite
+
+
+def _mission(values: Mapping[str, Any]) -> Mission:
+    places = {name: (float(x), float(y)) for name, (x, y) in values.get("locate", {}).items()}
+    starts = tuple((float(x), float(y)) for x, y in values.get("starts", ()))
+    survey, known = values.get("survey", "waypoints"), ("waypoints", "learnt")
+    if survey not in known:
+        raise PlannerError(f"survey = {survey!r} must be one of {', '.join(known)}")
+    name, published = values["name"], values.get("published", values["name"])
+    if published not in [one["mission"] for one in published_missions()]:
+        raise PlannerError(f"published = {published!r} is no published mission")
+    tolerance, runs = values.get("tolerance", 1.0), values.get("runs", 20)
+    what = values["command"], published, places, runs, tolerance, starts, survey
+    outlines = [f"{structure}={shape}" for structure, shape in values.get("outlines", {}).items()]
+    return Mission(name, *what, read_outlines(outlines))
+
+
+def run_suite(suite: Suite, out: Path, report: Report, *, overwrite: bool = False) -> Ran:
+    """Run what is not done yet, and write the table. Raises PlannerError."""
+    with alone(out, "--out", "a suite"):
+        check_writable(out)
+        _take(suite, out, overwrite)
+        ran = Ran()
+        with _Agents() as agents:
+            for mission in suite.missions:
+                _run(suite, mission, out, report, agents, ran)
+        made = suite_table(suite, ran)
+        write_text(out / "table.md", markdown_table(made))
+        write_text(out / "table.csv", csv_table(made))
+    return ran
+
+
+def _take(suite: Suite, out: Path, overwrite: bool) -> None:
+    """Begin a folder, or go on in one of the same suite."""
+    known = out / SUITE
+    here = sorted(out.iterdir()) if out.exists() else []
+    if here and not known.exists():
+        raise PlannerError(f"--out {out}: holds {here[0].name} and no suite; give another folder")
+    if here and overwrite:
+        for path in out.iterdir():
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    elif here and read_json(known) != suite.raw:
+        hint = "give --overwrite to begin anew, or another folder with --out"
+        raise PlannerError(f"--out {out}: holds results of another suite than {suite.path}; {hint}")
+    write_json(known, suite.raw)
+
+
+class _Agents:
+    """Both agents, loaded when a command is to be planned."""
+
+    def __enter__(self) -> _Agents:
+        self.planner: Planner | None = None
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        if self.planner:
+            self.planner.__exit__(None, None, None)
+
+    def plan(self, mission: Mission, path: Path) -> None:
+        """Write the plan of a mission, and approve it in a log of its own beside it."""
+        if self.planner is None:
+            from planner_ft.planning.planner import Planner
+            from planner_ft.planning.settings import PlanSettings
+
+            self.planner = Planner(PlanSettings())
+        planned = self.planner.plan(mission.command, mission.locate)
+        vocabulary = self.planner.vocabulary
+        document = build(planned, vocabulary, load_vehicle(None, vocabulary))
+        write_document(path, document)
+        approve(document, log_beside(path), f"suite, {mission.name}", ["all"], REASON)
+
+
+def _run(
+    suite: Suite, mission: Mission, out: Path, report: Report, agents: _Agents, ran: Ran
+) -> None:
+    plan = out / mission.folder / PLAN
+    log = log_beside(plan)
+    if not plan.exists() or approval_of(read_document(plan), log).status == "unknown":
+        agents.plan(mission, plan)
+    for simulator in suite.simulators:
+        settings = _settings(suite, mission, simulator, plan)
+        done = settings.folder / MANIFEST
+        if not done.exists():
+
+            def named(label: str, now: int, total: int, of: str = simulator) -> None:
+                report(f"{mission.name}, {of}: {label}", now, total)
+
+            simulate(settings, named)
+        ran.results[mission.name, simulator] = read_json(settings.folder / RESULTS)
+
+
+def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> SimulationSettings:
+    return SimulationSettings(
+        plan,
+        plan.parent / simulator,
+        mission.runs,
+        suite.raw["seed"],
+        simulator,
+        mission.tolerance,
+        mission.locate,
+        mission.starts,
+        mcap=0,
+        # What a killed run left is begun anew: its logs alone are there.
+        overwrite=True,
+        survey=mission.survey,
+        outlines=mission.outlines,
+    )
+
+
+def suite_table(suite: Suite, ran: Ran) -> Table:
+    """A row per mission and simulator, and the published one below."""
+    columns = ("where", "runs", *(heading for heading, *_form in COLUMNS.values()))
+    rows = [one for mission in suite.missions for one in _rows(suite, mission, ran)]
+    caption = (
+        "Means over runs with 95 % intervals. Published figures are of another simulator, other"
+        " structures and distances, so that steps, seconds and thrust are no comparison."
+    )
+    return Table("mission", columns, rows, 1, title=suite.raw["title"], caption=caption)
+
+
+def _rows(suite: Suite, mission: Mission, ran: Ran) -> Iterator[TableRow]:
+    for simulator in suite.simulators:
+        result = ran.results[mission.name, simulator]
+        cells = [cell(name, Estimate(**result["overall"][name])) for name in COLUMNS]
+        yield row(mission.name, simulator, str(len(result["runs"])), *cells)
+    quoted = next(one for one in published_missions() if one["mission"] == mission.published)
+    cells = [cell(name, Estimate(number(quoted, name))) for name in COLUMNS]
+    yield row(mission.name, "published", quoted["runs"], *cells, kind="published")

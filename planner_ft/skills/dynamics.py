@@ -1,0 +1,113 @@
+"""The vessel of `planner_ft.simulation.fast` with its autopilot in torch: batched, differentiable.
+
+A state (B, 8) is x, y in m, yaw in rad, surge, sway in m/s, yaw rate in rad/s over ground in the
+body's axes (REP-103), and the sums of the autopilot's two integrals. Without wind.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from planner_ft.simulation.control import MOST_YAW
+from planner_ft.simulation.vessel import STEP, Vessel, build_vessel
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import VEHICLE
+
+CURRENT = (0.02, 0.08)
+"""m/s (published)."""
+TURN = 0.43
+"""rad/s (published); the profile of a plan may allow less."""
+LEAK = 0.1
+"""Share of the gradient that passes a limit, so that saturated thrusters still learn."""
+
+
+def published_vessel() -> Vessel:
+    """The published vehicle, which usv.simulation.toml describes."""
+    vocabulary = load_vocabulary("usv")
+    profile = {**vocabulary.beside(VEHICLE), "turn_rate": math.degrees(TURN)}
+    return build_vessel(vocabulary, profile)
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """One time step of a batch. `leak`: gradients pass limits, for training through it."""
+
+    vessel: Vessel
+    leak: bool = False
+    seconds: float = STEP
+
+    def start(self, pose: Tensor) -> Tensor:
+        """States (B, 8) at rest of poses (B, 3)."""
+        return torch.cat([pose, pose.new_zeros(len(pose), 5)], dim=1)
+
+    def __call__(
+        self, state: Tensor, command: Tensor, current: Tensor, limits: Tensor | None = None
+    ) -> Tensor:
+        """The next state (B, 8) under commanded surge in m/s and yaw rate in rad/s (B, 2), in water
+        that moves with `current` (B, 2) in m/s; `limits` (B, 2) are lower speed limits than the
+        vessel's own.
+        """
+        own, dt = self.vessel, self.seconds
+        speed, turn = (own.speed, own.turn) if limits is None else limits.unbind(-1)
+        x, y, yaw, surge, sway, rate, sum_surge, sum_rate = state.unbind(-1)
+        want_surge = self._clip(command[:, 0], own.speed if limits is None else speed)
+        want_rate = self._clip(command[:, 1], turn)
+        force, moment, sum_surge, sum_rate = self._autopilot(
+            *(want_surge, want_rate, surge, rate, sum_surge, sum_rate)
+        )
+        cosine, sine = torch.cos(yaw), torch.sin(yaw)
+        water_x = cosine * current[:, 0] + sine * current[:, 1]
+        water_y = cosine * current[:, 1] - sine * current[:, 0]
+        drag = own.drag
+        u = (surge + dt * (force / own.mass + sway * rate + drag[0] * water_x)) / (1 + dt * drag[0])
+        v = (sway + dt * (drag[1] * water_y - surge * rate)) / (1 + dt * drag[1])
+        r = (rate + dt * moment / own.inertia) / (1 + dt * drag[2])
+        over = torch.hypot(u - water_x, v - water_y)
+        scale = (own.speed / over.clamp_min(1e-9)).clamp_max(1.0)
+        u, v = water_x + scale * (u - water_x), water_y + scale * (v - water_y)
+        r = self._clip(r, turn)
+        middle = yaw + dt / 2 * r
+        cosine, sine = torch.cos(middle), torch.sin(middle)
+        x, y = x + dt * (cosine * u - sine * v), y + dt * (sine * u + cosine * v)
+        return torch.stack([x, y, wrapped(yaw + dt * r), u, v, r, sum_surge, sum_rate], dim=-1)
+
+    def _autopilot(
+        self, want: Tensor, turn: Tensor, surge: Tensor, rate: Tensor, first: Tensor, second: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        """Force ahead in N, moment in N m and the integrals, as `control.Autopilot` makes them."""
+        own, dt = self.vessel, self.seconds
+        error, spin = want - surge, turn - rate
+        first = torch.where(error.abs() < 0.5, (first + 0.3 * dt * error).clamp(-0.5, 0.5), 0.0)
+        second = torch.where(spin.abs() < 0.2, (second + dt * spin).clamp(-0.3, 0.3), 0.0)
+        ahead = own.mass * (own.drag[0] * want + 1.5 * error + first)
+        moment = own.inertia * (own.drag[2] * turn + 3.0 * spin + second)
+        steer = self._clip(moment / own.track, MOST_YAW * own.thrust)
+        drive = self._clip(ahead / 2, own.thrust - steer.abs())
+        return 2 * drive, steer * own.track, first, second
+
+    def _clip(self, value: Tensor, most: float | Tensor) -> Tensor:
+        """`value` between -most and most."""
+        clipped = torch.minimum(torch.maximum(value, -_tensor(most, value)), _tensor(most, value))
+        if not self.leak:
+            return clipped
+        return clipped + LEAK * ((value - clipped) - (value - clipped).detach())
+
+
+def _tensor(value: float | Tensor, like: Tensor) -> Tensor:
+    return value if isinstance(value, Tensor) else like.new_tensor(value)
+
+
+def wrapped(angle: Tensor) -> Tensor:
+    """Angles in rad between -pi and pi."""
+    return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
+def turned(vector: Tensor, angle: Tensor) -> Tensor:
+    """Vectors (..., 2) turned counter-clockwise by angles (...) in rad."""
+    cosine, sine = torch.cos(angle), torch.sin(angle)
+    x, y = vector.unbind(-1)
+    return torch.stack([cosine * x - sine * y, sine * x + cosine * y], dim=-1)

@@ -1,0 +1,140 @@
+"""`plannerft skill train`: from settings to a folder with policy, card, manifest and log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+from planner_ft.skills.policies import (
+    CARD,
+    MANIFEST,
+    SHIPPED,
+    SKILLS,
+    WEIGHTS,
+    read_policy,
+    torch_threads,
+    write_policy,
+)
+from planner_ft.support.alone import alone
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import make_folder
+
+Report = Callable[[str, int, int], None]
+RECIPES = ("ours", "published")
+SAMPLING = ("uniform", "l3")
+TERMS = ("standoff", "progress", "visibility")
+NO_EXTRA = "needs torchrl, which is not installed; pip install planner_ft[sim], or --recipe ours"
+
+
+@dataclass(frozen=True)
+class SkillTraining:
+    """What is trained, and where to. `changes` are settings other than the recipe's own."""
+
+    skill: str
+    out: Path
+    recipe: str = "ours"
+    seed: int = 0
+    sampling: str = "uniform"
+    without: str | None = None
+    goto: Path | None = None
+    changes: Mapping[str, int] | None = None
+    resume: bool = False
+    overwrite: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError for what there is not."""
+        for flag, value, known in (
+            ("", self.skill, SKILLS),
+            ("--recipe ", self.recipe, RECIPES),
+            ("--sampling ", self.sampling, SAMPLING),
+            ("--without ", self.without, (None, *TERMS)),
+        ):
+            if value not in known:
+                names = ", ".join(str(one) for one in known if one)
+                raise PlannerError(f"{flag}{value}: must be one of {names}")
+        published = self.skill == "survey" and self.recipe == "published"
+        if not published and (self.sampling != "uniform" or self.without):
+            which = "--sampling" if self.sampling != "uniform" else "--without"
+            raise PlannerError(f"{which}: is of `skill train survey --recipe published` alone")
+
+    def settings(self) -> Any:
+        """The settings of the recipe. Raises PlannerError."""
+        kind: Any
+        more: dict[str, Any] = {"seed": self.seed}
+        if self.skill != "survey":
+            from planner_ft.skills.tracking import HOLD
+            from planner_ft.skills.tracking import TrackingSettings as kind
+
+            more |= HOLD if self.skill == "hold" else {"skill": self.skill}
+        elif self.recipe == "ours":
+            from planner_ft.skills.imitation import ImitationSettings as kind
+        else:
+            try:
+                from planner_ft.skills.ppo import PpoSettings as kind
+            except ImportError:
+                raise PlannerError(f"--recipe published: {NO_EXTRA}") from None
+            more |= {"sampling": self.sampling, "without": self.without}
+        known = {one.name for one in fields(kind)}
+        for name, value in (self.changes or {}).items():
+            if name not in known:
+                raise PlannerError(f"--{name}: this recipe has no such setting; leave it out")
+            if value < 1:
+                raise PlannerError(f"--{name} {value}: must be 1 or more")
+        return replace(kind(**more), **dict(self.changes or {}))
+
+
+def train_skill(request: SkillTraining, report: Report) -> dict[str, Any]:
+    """Train and write everything; the result of the manifest. Raises PlannerError."""
+    settings = request.settings()
+    with alone(request.out, "--out", "a training"):
+        make_folder(request.out)
+        _check_free(request)
+        torch_threads()
+        trained = _train(request, settings, report)
+        log = trained["losses"]
+        result = {"iterations": len(log), **trained.get("result", {})}
+        inputs = trained.get("inputs", {})
+        from planner_ft.skills.dynamics import published_vessel
+
+        recipe = request.recipe if request.skill == "survey" else "ours"
+        kept = {"settings": asdict(settings), "result": result, "inputs": inputs}
+        module = trained["policy"]
+        write_policy(request.out, request.skill, recipe, module, published_vessel(), kept)
+    return result
+
+
+def _train(request: SkillTraining, settings: Any, report: Report) -> dict[str, Any]:
+    where = request.out, request.resume, report
+    if request.skill != "survey":
+        from planner_ft.skills.tracking import train
+
+        return train(settings, *where)
+    tracker: Any = read_policy("goto", request.goto).module
+    if request.recipe == "ours":
+        from planner_ft.skills.imitation import train as imitate
+
+        trained = imitate(settings, tracker, *where)
+    else:
+        from planner_ft.skills.ppo import train as optimise
+
+        trained = optimise(settings, tracker, *where)
+    return {**trained, "inputs": {"goto": (request.goto or SHIPPED / "goto") / WEIGHTS}}
+
+
+def _check_free(request: SkillTraining) -> None:
+    """Refuse a folder with another training, and with other files."""
+    from planner_ft.skills.checkpoint import LOG, STATE
+
+    ours = {WEIGHTS, CARD, MANIFEST, STATE, LOG}
+    found = {path.name for path in request.out.iterdir() if not path.name.startswith(".")}
+    if foreign := sorted(found - ours):
+        problem = f"holds {foreign[0]}, which is not of a training of a skill"
+        raise PlannerError(f"--out {request.out}: {problem}; give another folder")
+    if found and not (request.resume or request.overwrite):
+        hint = "give --resume to go on, --overwrite to replace it, or another folder"
+        raise PlannerError(f"--out {request.out}: holds a training; {hint}")
+    if request.overwrite and not request.resume:
+        for name in found:
+            (request.out / name).unlink()

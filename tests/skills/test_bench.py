@@ -1,0 +1,75 @@
+"""The tables of `skill bench`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from planner_ft.skills import bench
+from planner_ft.skills.bench import (
+    CONDITIONS,
+    SkillBench,
+    bench_skill,
+    class_table,
+    condition_table,
+)
+from planner_ft.skills.episodes import Episode
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.tables import markdown_table
+
+
+def episodes(wins: int, family: str = "L") -> list[Episode]:
+    return [
+        Episode(family, "success" if number < wins else "collision", 0.2 * (number + 1), 100, 9.0)
+        for number in range(4)
+    ]
+
+
+def test_rows_are_shares_and_means_of_episodes() -> None:
+    played = {"ours": {name: [*episodes(3), *episodes(4, "circle")] for name in CONDITIONS}}
+    rows = {one.heading: one for one in class_table(played, 0).rows}
+    texts = {name: [cell.text for cell in one.cells] for name, one in rows.items()}
+    assert texts["all"][:0] == []
+    ours = [one for one in class_table(played, 0).rows if one.kind == "measured"]
+    assert [(one.heading, one.cells[0].text, one.cells[1].text) for one in ours] == [
+        ("L", "75", "25"),
+        ("circle", "100", "0"),
+        ("all", "88", "12"),
+    ]
+    assert ours[0].cells[3].text == "0.50" and ours[0].cells[4].text == "100"
+    by_condition = condition_table(played, 0)
+    assert sum(one.kind == "section" for one in by_condition.rows) == len(CONDITIONS) == 6
+
+
+def test_published_figures_stand_beside() -> None:
+    text = markdown_table(class_table({"ours": {name: episodes(4) for name in CONDITIONS}}, 0))
+    assert "published: uniform" in text and "| 35 | 65 | 0 | 1.10 | 357 |" in text
+    assert "published: without the progress term" in text
+
+
+def test_a_bench_writes_table_episodes_and_manifest(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    conditions = {"published conditions": (("circle",), CONDITIONS["published conditions"][1])}
+    monkeypatch.setattr(bench, "CONDITIONS", conditions)
+    out = tmp_path / "bench"
+    request = SkillBench("survey", episodes=1, out=out)
+    tables = bench_skill(request, lambda _label, _done, _total: None)
+    assert len(tables) == 2
+    written = {path.name for path in out.iterdir()}
+    assert written == {
+        *("table.md", "classes.csv", "conditions.csv", "episodes.json", "manifest.json")
+    }
+    text = (out / "table.md").read_text(encoding="utf-8")
+    for name in ("learnt, shipped", "contour follower, guidance and PID", "oracle: offset path"):
+        assert name in text
+    with pytest.raises(PlannerError, match="holds files; give --overwrite"):
+        SkillBench("survey", episodes=1, out=out)
+
+
+def test_bad_numbers_are_refused() -> None:
+    with pytest.raises(PlannerError, match="--episodes 0"):
+        SkillBench("goto", episodes=0)
+    with pytest.raises(PlannerError, match="swim: must be one of"):
+        SkillBench("swim")
