@@ -263,6 +263,23 @@ export --candidate embedded --merge --format qgc --out OUT
 plan x --temperature 1
 validate
 validate NOTHING
+skill
+skill paint hold
+skill train nobody --out OUT
+skill train hold --seed -1 --out OUT
+skill train hold --iterations 0 --out OUT
+skill train hold --environments 0 --out OUT
+skill train hold --recipe nobody --out OUT
+skill train hold --goto /nowhere --out OUT
+skill train hold --resume --overwrite --out OUT
+skill train hold --out EMPTY/x
+skill bench nobody --out OUT
+skill bench hold --episodes 0 --out OUT
+skill bench hold --policy /nowhere --out OUT
+skill bench hold --policy FOLDER --out OUT
+simulate --suite /nowhere --out OUT
+simulate --suite BINARY --out OUT
+simulate --suite LIST --out OUT
 """
 WORDS = {"LONG": "x" * 300, "NOTHING": ""}
 """A name that no file can have, and what an unset variable of a shell leaves."""
