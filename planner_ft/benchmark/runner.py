@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from datetime import timedelta
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.folder import Line, RecordLog
@@ -20,7 +18,7 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.sources import AnswerSource, Fields, open_source
 from planner_ft.support.manifest import build_manifest
-from planner_ft.support.resources import end_with_parent
+from planner_ft.support.ranks import Ranks
 from planner_ft.vocabulary.outputs import parse_output
 
 Progress = Callable[[str, int, int], None]
@@ -29,64 +27,6 @@ Progress = Callable[[str, int, int], None]
 
 def _silent(_label: str, _done: int, _total: int) -> None:
     pass
-
-
-Item = TypeVar("Item")
-LONGEST_WAIT = timedelta(days=14)
-"""For others that answer; one that fails ends them all through its launcher."""
-
-
-@dataclass(frozen=True)
-class Ranks:
-    """This process's place in a run. Rank 0 owns the folder; the others add answers."""
-
-    rank: int = 0
-    world: int = 1
-
-    @property
-    def leads(self) -> bool:
-        return self.rank == 0
-
-    def wait(self) -> None:
-        """Go on when every process has come here."""
-        if self.world > 1:
-            import torch.distributed
-
-            torch.distributed.barrier()
-
-    def share(self, items: Sequence[Item]) -> list[Item]:
-        """This process's part of the items that all share."""
-        return list(items[self.rank :: self.world])
-
-    def settings(self, settings: BenchSettings) -> BenchSettings:
-        """The settings of this process: a GPU of its own, where there are any."""
-        if self.world == 1 or settings.device not in ("auto", "cuda"):
-            return settings
-        import torch
-
-        if not torch.cuda.is_available():
-            return settings
-        local = int(os.environ.get("LOCAL_RANK", self.rank))
-        return replace(settings, device=f"cuda:{local % torch.cuda.device_count()}")
-
-
-def started_with_others() -> bool:
-    """Whether a launcher started several processes."""
-    return int(os.environ.get("WORLD_SIZE", "1")) > 1
-
-
-def join_ranks() -> Ranks:
-    """This process's place, after it has met the others; alone where there are none."""
-    if not started_with_others():
-        return Ranks()
-    import atexit
-
-    import torch.distributed
-
-    end_with_parent()
-    torch.distributed.init_process_group("gloo", timeout=LONGEST_WAIT)
-    atexit.register(torch.distributed.destroy_process_group)
-    return Ranks(torch.distributed.get_rank(), torch.distributed.get_world_size())
 
 
 @dataclass(frozen=True)
@@ -156,7 +96,7 @@ def run_bench(
     """
     out, goes_on, ranks = settings.folder, settings.resume or settings.overwrite, ranks or Ranks()
     folder.check_folder(out, () if goes_on else folder.ALL, folder.GO_ON)
-    plan = make_plan(ranks.settings(settings))
+    plan = make_plan(replace(settings, device=ranks.device(settings.device)))
     started = time.time()
     if settings.overwrite:
         folder.clear(out)
@@ -196,7 +136,7 @@ def _nothing_left(out: Path) -> Iterator[None]:
 
 def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
     """Make this process's share of a run that another process leads. Raises PlannerError."""
-    plan = make_plan(ranks.settings(settings))
+    plan = make_plan(replace(settings, device=ranks.device(settings.device)))
     # The first process has refused or cleared the folder before anybody goes on.
     ranks.wait()
     with RecordLog(settings.folder / folder.PREDICTIONS) as predictions:

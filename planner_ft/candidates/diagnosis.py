@@ -19,6 +19,7 @@ from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_ca
 from planner_ft.candidates.memory import GIB, device_memory, memory_summary
 from planner_ft.candidates.packing import set_packing
 from planner_ft.candidates.registry import Candidate, all_candidates
+from planner_ft.candidates.times import expected_times
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.manifest import hardware, library_versions, source_commit
@@ -45,8 +46,8 @@ Found = dict[str, Any]
 
 
 def describe(candidate: Candidate) -> Found:
-    """One row of `plannerft candidates` as JSON values: `memory` in GiB, None if unknown; where it
-    is not `here`, complete, `problem` or `get` says the way out, and `command` downloads it.
+    """One row of `plannerft candidates` as JSON values: estimates of `memory` in GiB and `times` in
+    seconds, None if unknown; where it is not `here`, complete, `problem` or `get` says the way out, and `command` downloads it.
     """
     missing, problem = candidate.folder is None, None
     try:
@@ -59,6 +60,7 @@ def describe(candidate: Candidate) -> Found:
         "row": candidate.row_name,
         "standin": candidate.is_standin,
         "memory": memory_summary(candidate),
+        "times": expected_times(candidate),
         "here": not missing and problem is None,
         "folder": None if missing else str(candidate.folder),
         "source": candidate.source,

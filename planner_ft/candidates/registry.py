@@ -23,6 +23,7 @@ REGISTRY = Path(__file__).parent / "registry.toml"
 HUB_ID = re.compile(r"(?P<repo>[A-Za-z0-9][\w.-]*/[A-Za-z0-9][\w.-]*)(@(?P<revision>[\w./-]+))?")
 STANDIN_KEY = "planner_ft_standin"
 """Marks the config.json of a stand-in, so that its results never pass for the real candidate's."""
+TAGS = {"peft": ("lora", "qlora"), "transformers": ()}
 VOCABULARY_KEY = "planner_ft_vocabulary"
 """In the config.json of an exported model: the bundled vocabulary that it has learned."""
 
@@ -184,6 +185,23 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
     if match := HUB_ID.fullmatch(text):
         return _from_hub(match["repo"], match["revision"])
     raise PlannerError(_unknown(text))
+
+
+def model_metadata(manifest: dict[str, Any], library: str) -> str:
+    """Front matter of the card of a model or adapter with that manifest, as the Hub reads it."""
+    from huggingface_hub import ModelCardData
+
+    licence = manifest["licence"]
+    unlisted = {"license": "other", "license_name": re.sub(r"[^a-z0-9.]+", "-", licence.lower())}
+    data = ModelCardData(
+        base_model=manifest["base"]["repo"],
+        language="en",
+        library_name=library,
+        pipeline_tag="text-generation",
+        tags=[*TAGS[library], "mission-planning", manifest["vocabulary"]["name"], "planner_ft"],
+        **tomllib.loads(read_text(REGISTRY))["licence"].get(licence, unlisted),
+    )
+    return str(data.to_yaml())
 
 
 def _unknown(text: str) -> str:

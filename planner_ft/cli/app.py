@@ -12,6 +12,7 @@ from planner_ft.cli.compare import compare, report
 from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
 from planner_ft.cli.export import export
 from planner_ft.cli.plan import plan
+from planner_ft.cli.push import push
 from planner_ft.cli.review import review, verify
 from planner_ft.cli.simulate import simulate
 from planner_ft.cli.skill import skill
@@ -53,5 +54,5 @@ def options(version: Annotated[bool, VERSION] = False) -> None:
 
 PLANS = (plan, review, verify, simulate, skill, gen_data, validate)
 MEASURING = (candidates, train, calibrate, bench, score, compare, learning_curve, report)
-for command in (*PLANS, *MEASURING, export, vocabulary, vehicle, doctor):
+for command in (*PLANS, *MEASURING, export, push, vocabulary, vehicle, doctor):
     app.command(command.__name__.replace("_", "-"))(command)

@@ -127,7 +127,8 @@ def _with_endpoint(
 
 
 def _run(settings: BenchSettings, *, report: bool) -> None:
-    from planner_ft.benchmark.runner import help_bench, join_ranks, run_bench
+    from planner_ft.benchmark.runner import help_bench, run_bench
+    from planner_ft.support.ranks import join_ranks
 
     ranks = join_ranks()
     if not ranks.leads:
@@ -145,7 +146,7 @@ def _check_file_alone(
     kind: str, path: Path, named: dict[str, Any], allowed: tuple[str, ...] = ()
 ) -> None:
     """Raise PlannerError for flags that a suite or gate file sets itself, and under accelerate."""
-    from planner_ft.benchmark.runner import started_with_others
+    from planner_ft.support.ranks import started_with_others
 
     if started_with_others():
         way_out = "a suite shares its runs itself with --processes N"

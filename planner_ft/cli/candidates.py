@@ -12,17 +12,20 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 ESTIMATES = (
-    "Estimates: 4-bit weights, batch size 1; to train an adapter on 1024 tokens, to run it on 2048"
-    " tokens. * with gradient checkpointing."
+    "Estimates, not measurements. Memory: 4-bit weights, batch size 1; to train an adapter on 1024"
+    " tokens, to run it on 2048 tokens. * with gradient checkpointing. Time on the study's RTX 4070:"
+    " the published trainings (minutes for missions, hours for tasks), a mission's answer in seconds."
 )
 PAGE = "https://huggingface.co/REPOSITORY"
 GATED = f" (gated ones: first accept the licence at {PAGE} and run `hf auth login`)"
 OFFLINE = "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
+FIGURES = ("weights", "train, GiB", "GPU, GB", "run, GiB", "GPU, GB")
+TIMES = ("mission, min", "task, h", "answer, s")
 SHORTENED = (" Community", " License", " (non-commercial)")
 
 
 @command
-def candidates(names: list[str] | None = None, json: bool = False) -> None:
+def candidates(names: list[str] | None = None, json: bool = False, markdown: bool = False) -> None:
     """List the models."""
     from planner_ft.candidates import all_candidates, resolve_candidate
     from planner_ft.candidates.diagnosis import describe
@@ -34,6 +37,9 @@ def candidates(names: list[str] | None = None, json: bool = False) -> None:
         show(indented_json(rows), end="")
         return
 
+    if markdown:
+        show("\n".join([*_lines(rows), "", ESTIMATES]))
+        return
     console = terminal(soft_wrap=True)
     console.print(_table(rows), soft_wrap=False)
     console.print(ESTIMATES, soft_wrap=False)
@@ -81,17 +87,37 @@ def _table(rows: list[dict[str, Any]]) -> Table:
 
     table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
     table.add_column("candidate", no_wrap=True)
-    for heading in ("weights", "train\nGiB", "GPU\nGB", "run\nGiB", "GPU\nGB"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    for heading in (*FIGURES, *TIMES):
+        table.add_column(heading.replace(", ", "\n"), justify="right", no_wrap=True)
     table.add_column("licence", overflow="fold")
     table.add_column("here", overflow="fold")
     for row in rows:
         licence = row["licence"]
         for part in SHORTENED:
             licence = licence.replace(part, "")
-        count = _count(row["parameters"])
-        table.add_row(row["name"], count, *_memory(row["memory"]), licence, _here(row))
+        figures = _count(row["parameters"]), *_memory(row["memory"]), *_times(row["times"])
+        table.add_row(row["name"], *figures, licence, _here(row))
     return table
+
+
+def _lines(rows: list[dict[str, Any]]) -> list[str]:
+    """The figures of the table in Markdown."""
+    head = ["candidate", *FIGURES, *TIMES]
+    cells = [
+        (row["name"], _count(row["parameters"]), *_memory(row["memory"]), *_times(row["times"]))
+        for row in rows
+    ]
+    bar = ["---", *["---:"] * (len(head) - 1)]
+    escaped = [[cell.replace("*", "\\*") for cell in line] for line in (head, bar, *cells)]
+    return [f"| {' | '.join(line)} |" for line in escaped]
+
+
+def _times(times: dict[str, Any] | None) -> tuple[str, str, str]:
+    """Cells: minutes and hours of the published trainings, seconds of an answer."""
+    if times is None:
+        return "?", "?", "?"
+    minutes, hours = times["train_mission_s"] / 60, times["train_task_s"] / 3600
+    return f"{minutes:.0f}", f"{hours:.1f}", f"{times['answer_s']:.0f}"
 
 
 def _here(row: dict[str, Any]) -> Text:

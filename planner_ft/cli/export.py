@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import typer
 
 from planner_ft.cli.options import command, typed
-from planner_ft.support.errors import PlannerError
+from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.terminal import show
 
-PLAN_FLAGS = ("format", "origin", "log", "draft")
+PLAN_FLAGS = ("format", "origin", "log", "draft", "origin_is_right")
 MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "checks", "check_data")
 
 
@@ -59,8 +61,17 @@ def _export_plan(plan: Path, given: dict[str, Any]) -> None:
     from planner_ft.exporters import parse_origin, run
 
     formats, origin = tuple(given.pop("format", None) or ()), given.pop("origin", None)
+    given["sure"] = given.pop("origin_is_right", False)
     place = parse_origin(origin) if origin is not None else None
-    done = run.export_plan(run.PlanExportSettings(plan, formats, place, **given))
+    asked = run.PlanExportSettings(plan, formats, place, **given)
+    try:
+        done = run.export_plan(asked)
+    except QuestionError as error:
+        if not (sys.stdin.isatty() and sys.stdout.isatty()):
+            raise
+        if not typer.confirm(error.question):
+            raise PlannerError("nothing was written; give the right --origin LAT,LON") from None
+        done = run.export_plan(replace(asked, sure=True))
     for one in done:
         show(f"{one.file}: {run.loss_summary(one.account)} (report: {one.report})")
         for line in run.loss_lines(one.account):

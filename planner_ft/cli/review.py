@@ -69,6 +69,7 @@ def _review(options: dict[str, Any]) -> None:
 
 
 def _serve(options: dict[str, Any]) -> None:
+    from planner_ft.exporters import page as exporting
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.simulation.live import run_live
@@ -83,7 +84,7 @@ def _serve(options: dict[str, Any]) -> None:
     given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
     if options["origin"] is not None:
         given["origin"] = parse_origin(options["origin"])
-    given["runner"] = run_live
+    given |= {"reviewer": options["name"] or "", "exporting": exporting, "runner": run_live}
     serve(plan, WebSettings(planning=planning, open_browser=not options["no_browser"], **given))
 
 

@@ -78,7 +78,7 @@ def simulate(
 
 def _suite(path: Path, options: dict[str, Any]) -> None:
     """Run a suite, which says everything itself but where to."""
-    from planner_ft.simulation.suite import read_suite, run_suite, suite_table
+    from planner_ft.simulation.suite import SHORT, read_suite, run_suite, suite_table
     from planner_ft.support.tables import terminal_table
 
     own = ("plan", "suite", "out", "overwrite")
@@ -89,7 +89,7 @@ def _suite(path: Path, options: dict[str, Any]) -> None:
     again = f"{out} holds what is done; the same command goes on"
     with interruptible(lambda: again) as report:
         ran = run_suite(suite, out, report, overwrite=options["overwrite"])
-    terminal().print(terminal_table(suite_table(suite, ran)))
+    terminal().print(terminal_table(suite_table(suite, ran, SHORT)))
     show(f"{out}: table.md, table.csv, and a folder per mission with plan, log and runs")
 
 

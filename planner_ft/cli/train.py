@@ -15,6 +15,7 @@ from planner_ft.cli.options import command, given, set_parameters
 from planner_ft.cli.progress import interruptible, resume_command, status
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.ranks import Ranks, join_ranks
 from planner_ft.support.terminal import show, terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 from planner_ft.vocabulary.definition import DEFAULT
@@ -62,22 +63,26 @@ def train(**options: Any) -> None:
 
     names, settings = ({key: options[key] for key in keys} for keys in (RUN_KEYS, FIELDS))
     rerun = {name: options[name] for name in ("recipe", "overwrite", "resume")}
-    request, console = build_request(names, settings, **rerun), terminal(soft_wrap=True)
-    preview_id = options["preview_id"]
-    if options["preview"] or preview_id:
+    ranks, preview_id = join_ranks(), options["preview_id"]
+    with ranks.one_voice():
+        request = build_request(names, settings, **rerun, ranks=ranks)
+    console = terminal(soft_wrap=True)
+    if not (options["preview"] or preview_id):
+        _train(request, console, ranks)
+    elif ranks.leads:
         _preview(request, preview_id, console)
-    else:
-        _train(request, console)
 
 
-def _train(request: Any, console: Console) -> None:
+def _train(request: Any, console: Console, ranks: Ranks) -> None:
     from planner_ft.benchmark.judge import Judge
     from planner_ft.training.loop import InterruptedRunError
     from planner_ft.training.run import train as run_training
 
     try:
-        manifest = run_training(request, console, Judge)
+        manifest = run_training(request, console, Judge, ranks)
     except InterruptedRunError as stop:
+        if not ranks.leads:
+            raise typer.Exit(128 + stop.signal_number) from None
         done = f"stopped at step {stop.step} of {stop.total}, all saved"
         console.print(f"{done}; continue with:\n  {resume_command()}", markup=False)
         raise typer.Exit(128 + stop.signal_number) from None

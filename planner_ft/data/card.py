@@ -35,9 +35,11 @@ def dataset_card(
     leakage: Mapping[str, Any] | None,
     seed: int | None,
     labelling: str = "",
+    *,
+    chat: bool = False,
 ) -> str:
     """The card's text: front matter, counts, coverage, lengths, diversity, leakage. Without a
-    leakage report it is that of synthetic missions.
+    leakage report it is that of synthetic missions; `chat` names the chat form, too.
     """
     import jinja2
 
@@ -74,6 +76,7 @@ def dataset_card(
         table=table,
         level=level,
         labelling=labelling,
+        configs={"default": "", **({"chat": "chat/"} if chat else {})},
         vehicle=vocabulary.title,
         frame=vocabulary.frame,
         home=list(vocabulary.home),

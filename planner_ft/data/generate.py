@@ -163,9 +163,10 @@ def _make(
         leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
         texts["leakage.json"] = indented_json(leakage)
         clock.stop("leakage report")
-    about = source / ABOUT if source else None
-    labelling = read_text(about).strip() if about and about.is_file() else ""
-    texts["README.md"] = dataset_card(level, splits, vocabulary, leakage, seed, labelling)
+    written = source / ABOUT if source else None
+    labelling = read_text(written).strip() if written and written.is_file() else ""
+    about = level, splits, vocabulary, leakage, seed, labelling
+    texts["README.md"] = dataset_card(*about, chat=messages is not None)
     if messages is not None:
         for split, records in splits.items():
             texts[f"chat/{split}.jsonl"] = _lines(

@@ -3,8 +3,8 @@
 An entry is a text such as "the {colour} ladder", "camera {n}" or "weld {code}"; a list that is a
 table gives each entry a weight. An entry that begins with "the " is said with its article and
 stored without it; what stands before a bar is said and not stored ("sensor |{code}"), nor are the
-quotation marks behind it. Every vehicle has the lists of wordlists.toml: {n} a number, {code} "KX-07",
-{low} a small letter, {letter} a capital, {digit} a digit, {word} and {name} what no dictionary has,
+quotation marks behind it. Every vehicle has the lists of wordlists.toml: {n} a number, {code}
+"KX-07", {low} a small letter, {letter} a capital, {digit} a digit, {word} and {name} what no dictionary has,
 {tag} a file tag, {any_thing} a thing's name from things.txt.
 """
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from planner_ft.document.build import PlanDocument
@@ -18,7 +18,7 @@ Kind = Literal[
 
 @dataclass(frozen=True)
 class Difference:
-    """One change of a task (None: of the plan); `text` is a sentence."""
+    """One change of a task (None: of the plan); `text` is a sentence, `by` who made it last."""
 
     task: str | None
     kind: Kind
@@ -26,6 +26,7 @@ class Difference:
     before: Any
     after: Any
     text: str
+    by: str | None = None
 
     def as_json(self) -> dict[str, Any]:
         """The change as a JSON object."""
@@ -34,7 +35,45 @@ class Difference:
 
 def differences(document: PlanDocument) -> list[Difference]:
     """The differences between the proposal of a document and the plan as it stands."""
-    return compare(document["proposed"], document)
+    authors = _authors(document)
+    return [
+        replace(one, by=by, text=f"{one.text}, changed by {by}") if (by := authors(one)) else one
+        for one in compare(document["proposed"], document)
+    ]
+
+
+OF_EDIT: dict[Kind, tuple[str, ...]] = {
+    "added": ("insert",),
+    "removed": ("remove",),
+    "moved": ("move",),
+    "title": ("title",),
+    "parameter": ("parameter", "locate", "origin", "title"),
+    "prompt": ("prompt", "parameter"),
+    "skills": ("skills", "skill", "drop"),
+    "located": ("locate", "origin"),
+    "constraint": ("constraint",),
+}
+"""The kinds of edits that a kind of difference comes from; `replace` may bring any."""
+
+
+def _authors(document: PlanDocument) -> Callable[[Difference], str | None]:
+    """Who made the last edit that a difference can come from."""
+
+    def by(one: Difference) -> str | None:
+        for record in reversed(document["edits"]):
+            edit = record["edit"]
+            mine = edit["kind"] in OF_EDIT[one.kind] and (
+                edit.get("task", edit.get("id", one.task)) == one.task
+                and (
+                    edit["kind"] != "parameter" or one.kind == "prompt" or edit["name"] == one.name
+                )
+                and (one.kind != "located" or edit.get("name", one.name) == one.name)
+            )
+            if mine or edit["kind"] == "replace":
+                return str(record["by"]) if record["by"] else None
+        return None
+
+    return by
 
 
 def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:

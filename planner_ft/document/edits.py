@@ -6,7 +6,7 @@ import copy
 import functools
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Any
@@ -62,12 +62,22 @@ def undo(document: PlanDocument, vocabulary: Vocabulary) -> PlanDocument:
     """The document without its last edit. Raises PlannerError when there is none."""
     if not document["edits"]:
         raise PlannerError("there is no edit to take back; the plan is as it was proposed")
-    if any(record["edit"]["kind"] == "origin" for record in document["edits"]):
+    return replayed({**document, "edits": document["edits"][:-1]}, vocabulary, document["edits"])
+
+
+def replayed(
+    document: PlanDocument, vocabulary: Vocabulary, made: Sequence[Edit] | None = None
+) -> PlanDocument:
+    """The proposal of a document with its edits made anew: what was saved, whatever was changed in
+    the file since. `made` are all edits that there were. Raises PlannerError.
+    """
+    edits = document["edits"]
+    if any(record["edit"]["kind"] == "origin" for record in made or edits):
         document = {key: value for key, value in document.items() if key != "origin"}
-    undone = {**document, **copy.deepcopy(document["proposed"]), "edits": []}
-    for record in document["edits"][:-1]:
-        undone = _applied(undone, record, vocabulary)
-    return revise(undone, vocabulary)
+    again = {**document, **copy.deepcopy(document["proposed"]), "edits": []}
+    for record in edits:
+        again = _applied(again, record, vocabulary)
+    return revise(again, vocabulary)
 
 
 def _record(edit: Edit, by: str | None) -> dict[str, Any]:

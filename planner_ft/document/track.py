@@ -68,13 +68,16 @@ class Target:
 
 @dataclass(frozen=True)
 class Track:
-    """Legs in the order of the plan; `open` are tasks whose movement is not known in full."""
+    """Legs in the order of the plan; `open` are tasks whose movement is not known in full, `end` is
+    where the vehicle is at the end, None where that is not known.
+    """
 
     legs: tuple[Leg, ...]
     circles: tuple[Circle, ...]
     boundaries: tuple[Boundary, ...]
     targets: tuple[Target, ...]
     open: tuple[str, ...]
+    end: Point | None = None
 
     def as_json(self) -> dict[str, Any]:
         """Everything as a JSON object."""
@@ -89,7 +92,7 @@ def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
         pen.draw(task)
     circles, boundaries = _circles(tasks, vocabulary), _boundaries(tasks, vocabulary)
     shapes = tuple(circles), tuple(boundaries), tuple(_targets(document, vocabulary))
-    return Track(tuple(pen.legs), *shapes, tuple(pen.open))
+    return Track(tuple(pen.legs), *shapes, tuple(pen.open), pen.here)
 
 
 def estimate(document: Mapping[str, Any], path: Track, home: Point = (0.0, 0.0)) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from planner_ft.exporters.ledger import Path as Place
 from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
-from planner_ft.support.errors import PlannerError
+from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.files import write_text
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.terminal import plain
@@ -30,6 +30,7 @@ class PlanExportSettings:
     `out` is the file of a single format, by default the plan's name with the format's extension.
     `log` is the approval log, by default the one beside the plan; `draft` exports a plan that is
     not approved, and marks it. `vocabulary` is the file of a vocabulary that is not bundled.
+    `sure`: the origin is right, whatever speaks against it.
     """
 
     plan: Path
@@ -40,6 +41,7 @@ class PlanExportSettings:
     draft: bool = False
     vocabulary: str | None = None
     overwrite: bool = False
+    sure: bool = False
 
 
 @dataclass(frozen=True)
@@ -60,9 +62,12 @@ def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
     any is written.
 
     Raises PlannerError for a plan that is not approved (without `draft`), and for what a format
-    cannot take.
+    cannot take; QuestionError for an origin that speaks against itself (without `sure`).
     """
     formats, plan = _formats(settings), _plan(settings)
+    doubtful = doubt(plan.document["command"], plan.origin) if plan.origin else None
+    if doubtful and not settings.sure:
+        raise QuestionError(doubtful, "If it is right, give --origin-is-right.")
     needing = next((chosen.name for chosen in formats if chosen.needs_origin), None)
     if needing and plan.origin is None:
         where = "where the plan's [0, 0] lies, such as 59.9075,10.7231"
@@ -136,21 +141,26 @@ def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:
 # ------------------------------------------------------------ the report of losses
 
 
-def loss_summary(account: Account) -> str:
-    """One line: how much of the plan is in the file, which tasks do not move as planned, and where
-    the mission stops.
-    """
-    carried, lost, changed = map(len, (account.carried, account.lost_paths, account.changed_paths))
+def stop_words(account: Account) -> list[str]:
+    """What stops the mission, or takes it another way: "waits for the operator at tasks 1, 3"."""
     still = {path for path in account.lost_paths if path[4:] == MOVEMENT}
+    waits = {path for path in account.stops if path in account.carried}
+    ends = account.stops - waits
+    found = [_tasks("waits for the operator at", waits), _tasks("ends before", ends)]
+    return [one for one in (*found, _tasks("does not move as planned in", still - ends)) if one]
+
+
+def loss_summary(account: Account) -> str:
+    """One line: what stops the mission first, then how much of the plan is in the file."""
+    carried, lost, changed = map(len, (account.carried, account.lost_paths, account.changed_paths))
     entries = f"{carried} of {carried + lost} entries carried, {changed} of them in another form"
-    ends = _tasks("MOVEMENTS LOST", still) + _tasks("MISSION STOPS", account.stops)
-    return f"{entries}; {lost} lost{ends}"
+    return "; ".join([*stop_words(account), f"{entries}, {lost} lost"])
 
 
 def _tasks(what: str, paths: Collection[Place]) -> str:
     numbers = sorted({int(path[1]) + 1 for path in paths})
     plural = "s" if len(numbers) > 1 else ""
-    return f"; {what} in task{plural} {ranges(numbers)}" if numbers else ""
+    return f"{what} task{plural} {ranges(numbers)}" if numbers else ""
 
 
 def loss_lines(account: Account) -> Iterator[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import Any, get_args
 from planner_ft.candidates import adapters, resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer, require_folder
 from planner_ft.candidates.location import weights_sha256
+from planner_ft.candidates.registry import model_metadata
 from planner_ft.model_export import check as checks
 from planner_ft.model_export.gguf_file import OutType, check_architecture, import_gguf, write_gguf
 from planner_ft.model_export.gguf_tokens import check_ids, token_table
@@ -204,5 +204,5 @@ def model_card(manifest: Record) -> str:
     loader = PackageLoader("planner_ft.model_export", ".")
     environment = Environment(loader=loader, trim_blocks=True, keep_trailing_newline=True)
     return environment.get_template("model_card.md.j2").render(
-        manifest, agent=AGENTS[manifest["level"]], licence_text=json.dumps(manifest["licence"])
+        manifest, agent=AGENTS[manifest["level"]], metadata=model_metadata(manifest, "transformers")
     )

@@ -91,12 +91,17 @@ def _decision(
     }
 
 
-def _check_texts(reviewer: str, reason: str) -> None:
-    if not reviewer.strip():
-        raise PlannerError("a decision needs the name of who takes it; give --name NAME")
+def check_name(reviewer: str) -> None:
+    """Raise PlannerError for a name that cannot be recorded."""
     if not reviewer.isprintable() or len(reviewer) > LONGEST_NAME:
         limit = f"must be at most {LONGEST_NAME} printable characters"
         raise PlannerError(f"--name {reviewer[:LONGEST_NAME]!r}: {limit}")
+
+
+def _check_texts(reviewer: str, reason: str) -> None:
+    if not reviewer.strip():
+        raise PlannerError("a decision needs the name of who takes it; give --name NAME")
+    check_name(reviewer)
     try:
         reason.encode()
     except UnicodeEncodeError:

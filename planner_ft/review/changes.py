@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from planner_ft.document import PlanDocument
+from planner_ft.document import PlanDocument, altered
+from planner_ft.document.edits import replayed
+from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
+from planner_ft.vocabulary import Vocabulary
 
 LONGEST = 120
 """Characters of a value that are shown."""
@@ -16,6 +19,7 @@ DERIVED = frozenset(
 )
 """Keys that follow from the rest, or repeat it; their changes come last."""
 Words = tuple[str, ...]
+MORE = "more than the tasks: the command, the vehicle, the proposal, or the record of changes"
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,25 @@ class Change:
 
     def as_json(self) -> dict[str, Any]:
         return asdict(self)
+
+
+def tampered(document: PlanDocument, vocabulary: Vocabulary) -> list[Change] | None:
+    """What was changed in a plan outside of the review since it was saved; None: nothing was.
+
+    What was saved is the proposal with the edits; where that has not the digest of the file either,
+    more was changed than the tasks.
+    """
+    if not altered(document):
+        return None
+    try:
+        saved = replayed(document, vocabulary)
+    except (PlannerError, KeyError, TypeError):
+        return [Change("", None, None, MORE)]
+    found = changes(saved, {**document, "digest": saved["digest"]})
+    named = [replace(one, text=one.text.replace(": approved ", ": saved ", 1)) for one in found]
+    return (
+        named if saved["digest"] == document.get("digest") else [*named, Change("", "", "", MORE)]
+    )
 
 
 def changes(approved: PlanDocument, now: PlanDocument) -> list[Change]:

@@ -9,12 +9,15 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
-from planner_ft.document import PlanDocument, altered, differences
+from planner_ft.document import PlanDocument, differences
+from planner_ft.document.brief import brief, overview_lines
 from planner_ft.document.confidence import choice_lines, confidence_lines
 from planner_ft.document.differences import Difference
 from planner_ft.document.track import track
 from planner_ft.document.tree import constraint_lines, task_tree
+from planner_ft.document.warnings.severity import gravest_first, meaning
 from planner_ft.planning.frame import origin_of
+from planner_ft.review.changes import tampered
 from planner_ft.review.chart import chart
 from planner_ft.review.commands import HELP
 from planner_ft.review.desk import Desk
@@ -30,6 +33,7 @@ from planner_ft.vocabulary import Vocabulary
 PROMPT = "approve, reject, an edit (help shows them), show or quit: "
 WIDEST = 120
 SHOWN_CHANGES = 40
+SEVERITY_STYLES = {"danger": "bold red", "caution": "yellow", "note": ""}
 STYLES = {"approved": "bold green", "unknown": ""}
 
 Read = Callable[[str], str]
@@ -48,15 +52,20 @@ def review_lines(
     status, *changed = approval_text(approval)
     yield status, STYLES.get(approval.status, "bold red")
     yield from ((text, "") for text in changed)
-    if altered(document):
+    if (foreign := tampered(document, vocabulary)) is not None:
         text = "the file was altered by hand: its content is not what its digest says"
         yield f"{text}; --adopt takes the changes over as an edit", "bold red"
+        yield from ((f" - {change.text}", "bold red") for change in foreign[:SHOWN_CHANGES])
+    course = track(document, vocabulary)
+    short = brief(document, course, vocabulary)
+    yield from (("", ""), ("What will happen", "bold"))
+    yield from ((line, "") for line in overview_lines(document, short))
     yield from _warnings(document)
     yield from ((text, "bold") for text in confidence_lines(document))
     yield from ((f" ? {text}", "yellow") for text in choice_lines(document))
     tasks = [task["id"] for task in document["tasks"]]
-    course = track(document, vocabulary)
     sections: dict[str, Iterable[str]] = {
+        "Not checked": (f" - {text}" for text in short.unchecked),
         "Command": [*document["command"].splitlines(), *_origin(document)],
         "Tasks": task_tree(document),
         "Where values come from": _sources(document),
@@ -87,8 +96,10 @@ def _warnings(document: PlanDocument) -> Iterator[Line]:
     warnings = document["warnings"]
     style = "bold yellow" if warnings else "bold"
     yield from (("", ""), (_counted(document, "No"), style))
-    for warning in warnings:
-        yield f" - {warning['text']}  [{warning['id']}]", "yellow"
+    for warning in gravest_first(warnings):
+        severity, name = meaning(warning["kind"])
+        text = f" - {severity}: {name}. {warning['text']}  [{warning['id']}]"
+        yield text, SEVERITY_STYLES[severity]
     questions = [*document.get("questions", ()), *document["ontology"]["questions"]]
     yield from ((f" ? {question}", "") for question in questions)
 

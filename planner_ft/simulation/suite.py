@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -39,6 +39,8 @@ MISSION_KEYS: dict[str, Kind] = {
     "tolerance": float,
     "starts": [list],
 }
+SHORT = ("success", "waypoint_error", "holding_error", "standoff_error")
+"""Figures for a terminal."""
 SUITE, PLAN = "suite.json", "plan.json"
 REASON = "approved by a suite, read by nobody: for simulation alone"
 Report = Callable[[str, int, int], None]
@@ -215,22 +217,22 @@ def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> Sim
     )
 
 
-def suite_table(suite: Suite, ran: Ran) -> Table:
-    """A row per mission and simulator, and the published one below."""
-    columns = ("where", "runs", *(heading for heading, *_form in COLUMNS.values()))
-    rows = [one for mission in suite.missions for one in _rows(suite, mission, ran)]
+def suite_table(suite: Suite, ran: Ran, names: Sequence[str] = tuple(COLUMNS)) -> Table:
+    """A row per mission and simulator, and the published one below, with figures of these names."""
+    columns = ("runs", *(COLUMNS[name][0] for name in names))
+    rows = [one for mission in suite.missions for one in _rows(suite, mission, ran, names)]
     caption = (
         "Means over runs with 95 % intervals. Published figures are of another simulator, other"
         " structures and distances, so that steps, seconds and thrust are no comparison."
     )
-    return Table("mission", columns, rows, 1, title=suite.raw["title"], caption=caption)
+    return Table("mission", columns, rows, 0, "missions", suite.raw["title"], caption)
 
 
-def _rows(suite: Suite, mission: Mission, ran: Ran) -> Iterator[TableRow]:
+def _rows(suite: Suite, mission: Mission, ran: Ran, names: Sequence[str]) -> Iterator[TableRow]:
     for simulator in suite.simulators:
         result = ran.results[mission.name, simulator]
-        cells = [cell(name, Estimate(**result["overall"][name])) for name in COLUMNS]
-        yield row(mission.name, simulator, str(len(result["runs"])), *cells)
+        cells = [cell(name, Estimate(**result["overall"][name])) for name in names]
+        yield row(f"{mission.name}, {simulator}", str(len(result["runs"])), *cells)
     quoted = next(one for one in published_missions() if one["mission"] == mission.published)
-    cells = [cell(name, Estimate(number(quoted, name))) for name in COLUMNS]
-    yield row(mission.name, "published", quoted["runs"], *cells, kind="published")
+    cells = [cell(name, Estimate(number(quoted, name))) for name in names]
+    yield row(f"{mission.name}, published", quoted["runs"], *cells, kind="published")

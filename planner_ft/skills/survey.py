@@ -42,7 +42,7 @@ NUMBERS = geometry.RAYS + 4
 class Task:
     """What is drawn, and what is rewarded. `standoff`, `size` (base radius)
     and `spawn` (distance at the start) in m, `current` in m/s, `lost` the share of
-    rays that a scan loses (in training at most); `rounding` (m) of the teacher's way, None without a teacher.
+    rays that a scan loses (in training at most); `rounding` (m) of the teacher's way, if any.
     """
 
     families: tuple[str, ...] = ("circle", "rectangle", "L", "polygon", "abstract")

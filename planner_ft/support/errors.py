@@ -11,3 +11,11 @@ class GateError(PlannerError):
 
 class IncompleteError(PlannerError):
     """Part of a suite could not be measured. The command line exits with 1."""
+
+
+class QuestionError(PlannerError):
+    """What was asked for is hardly meant: `question` asks, and a word of the user overrules it."""
+
+    def __init__(self, question: str, way_out: str = "") -> None:
+        super().__init__(f"{question} {way_out}".strip())
+        self.question = question

@@ -24,6 +24,7 @@ from torch import Tensor
 
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sync_folder, writing
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.model import adapter_tensors, make_optimizer, set_adapter
 from planner_ft.training.report import GO_ON, Report
 from planner_ft.training.samples import Sample
@@ -87,12 +88,13 @@ class Run:
     best: dict[str, Tensor] | None = None
     report: Report = field(init=False)
     judge: Judging | None = None
+    ranks: Ranks = ALONE
 
     def __post_init__(self) -> None:
         self.optimizer = make_optimizer(self.model, self.settings)
         half = self.dtype == torch.float16
         self.scaler = torch.amp.GradScaler(self.device.type, enabled=half)
-        size = self.settings.batch_size * self.settings.gradient_accumulation
+        size = self.settings.batch_size * self.settings.gradient_accumulation * self.ranks.world
         self.steps_per_epoch = -(-len(self.train) // size)
         steps = self.settings.epochs * self.steps_per_epoch
         self.total_steps = min(steps, self.settings.max_steps or steps)
@@ -104,7 +106,12 @@ class Run:
 
 
 def save_checkpoint(run: Run) -> None:
-    """Write a checkpoint, then remove all but the last KEPT. Raises PlannerError: disk full."""
+    """Write a checkpoint, then remove all but the last KEPT; of several processes the first does.
+
+    Raises PlannerError: disk full.
+    """
+    if not run.ranks.leads:
+        return
     folder = run.output / CHECKPOINTS
     target = folder / f"{PREFIX}{run.state.step:08d}"
     temporary = folder / f".{target.name}.{os.getpid()}.tmp"

@@ -13,18 +13,21 @@ from types import FrameType
 import torch
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.support.resources import peak_memory
-from planner_ft.training.batches import Batch, collate, epoch_steps
+from planner_ft.training.batches import collate, epoch_steps
 from planner_ft.training.checkpoint import JUDGED, Answer, Run, save_checkpoint
 from planner_ft.training.lean import LONGEST, is_lean
 from planner_ft.training.model import (
     adapter_parameters,
     adapter_tensors,
+    add_gradients,
     loss_sum,
     packs,
     set_adapter,
     validation_loss,
 )
+from planner_ft.training.samples import Sample
 from planner_ft.training.settings import TrainSettings
 
 
@@ -37,15 +40,18 @@ class InterruptedRunError(Exception):
 
 
 @contextlib.contextmanager
-def stop_signals(note: Callable[[str], None]) -> Iterator[list[int]]:
-    """Ctrl-C and SIGTERM end the run after the step in progress; a second one ends it at once."""
+def stop_signals(note: Callable[[str], None], ranks: Ranks = ALONE) -> Iterator[list[int]]:
+    """Ctrl-C and SIGTERM end the run after the step in progress; a second one ends it at once, but
+    for processes with a launcher: they have one from the terminal and one from that.
+    """
     received: list[int] = []
 
     def handle(number: int, frame: FrameType | None) -> None:
-        if received:
+        if received and ranks.world == 1:
             raise KeyboardInterrupt
         received.append(number)
-        note("stopping after this step and saving a checkpoint (Ctrl-C again: at once, without)")
+        again = " (Ctrl-C again: at once, without)" if ranks.world == 1 else ""
+        note(f"stopping after this step and saving a checkpoint{again}")
 
     # Python lets only the main thread set handlers; elsewhere the caller's apply.
     main = threading.current_thread() is threading.main_thread()
@@ -76,7 +82,7 @@ def train_loop(run: Run) -> None:
     """
     run.model.train()
     state, settings, saved = run.state, run.settings, time.monotonic()
-    with stop_signals(run.report.note) as signals:
+    with stop_signals(run.report.note, run.ranks) as signals:
         if run.judge and state.base_answers is None:
             state.base_answers = run.judge.answers(adapter=False)
             run.report.note(f"base: {_summary(state.base_answers)}")
@@ -87,7 +93,8 @@ def train_loop(run: Run) -> None:
             if epoch_ends:
                 _end_epoch(run)
             state.seconds += time.monotonic() - begun
-            stopped = bool(signals) and state.step < run.total_steps
+            stop = _signal(run, signals)
+            stopped = bool(stop) and state.step < run.total_steps
             due = time.monotonic() - saved > 60 * settings.checkpoint_minutes
             if settings.checkpoint_steps and state.step % settings.checkpoint_steps == 0:
                 due = True
@@ -95,16 +102,24 @@ def train_loop(run: Run) -> None:
                 save_checkpoint(run)
                 saved = time.monotonic()
             if stopped:
-                raise InterruptedRunError(state.step, run.total_steps, signals[0])
+                run.ranks.wait()  # a launcher ends the others with the first that goes
+                raise InterruptedRunError(state.step, run.total_steps, stop)
     if run.best is not None:
         set_adapter(run.model, run.best)
+
+
+def _signal(run: Run, signals: list[int]) -> int:
+    """The signal that ends the run, which any process may have got; 0 for none."""
+    told = run.ranks.add_up(torch.tensor(len(signals)))
+    return signals[0] if signals else int(told > 0) * signal.SIGTERM
 
 
 def _remaining_steps(run: Run) -> Iterator[list[list[int]]]:
     """The batches of every optimiser step from the state's on."""
     lengths, state, s = [sample.length for sample in run.train], run.state, run.settings
     for epoch in range(state.step // run.steps_per_epoch, s.epochs):
-        steps = epoch_steps(lengths, s.batch_size, s.gradient_accumulation, s.seed, epoch)
+        count = s.gradient_accumulation * run.ranks.world
+        steps = epoch_steps(lengths, s.batch_size, count, s.seed, epoch)
         for step in steps[state.step % run.steps_per_epoch :]:
             if state.step >= run.total_steps:
                 return
@@ -117,24 +132,28 @@ def _step(run: Run, indices: list[list[int]]) -> None:
     rate = learning_rate(run.settings, state.step, run.total_steps)
     for group in run.optimizer.param_groups:
         group["lr"] = rate
+    step = [[run.train[index] for index in batch] for batch in indices]
+    samples = [sample for batch in step for sample in batch]
+    count = sum(sample.completion_length for sample in samples)
     together = LONGEST if is_lean(run.model, run.device) else 0
     batches = [
-        collate([run.train[index] for index in batch], run.pad, packed=packed, together=together)
-        for batch in indices
+        collate(batch, run.pad, packed=packed, together=together) for batch in run.ranks.share(step)
     ]
-    count = sum(len(batch.targets) for batch in batches)
-    parts = []
+    if run.ranks.world > 1:  # dropout of its own for each, whatever a resumed run drew before
+        torch.manual_seed(hash((run.settings.seed, state.step, run.ranks.rank)))
+    parts = [torch.zeros((), device=run.device)]  # the last step may have nothing for this process
     for batch in batches:
         part = loss_sum(run.model, batch.to(run.device), run.dtype) / count
         torch.autograd.backward(run.scaler.scale(part))
         parts.append(part.detach())
     # Read after the backward pass was queued: waiting for a GPU in between would leave it idle.
-    losses = torch.stack(parts).tolist()
-    for value, batch in zip(losses, batches, strict=True):
-        if not math.isfinite(value):
-            raise _not_finite(run, f"loss is {value}", batch)
-    norm = _update(run, batches)
-    loss, trained = sum(losses), sum(batch.tokens for batch in batches)
+    own = [float(torch.stack(parts).sum()), sum(batch.tokens for batch in batches)]
+    loss, tokens = run.ranks.add_up(torch.tensor(own, dtype=torch.float64)).tolist()
+    if not math.isfinite(loss):
+        bad = (one for part, one in zip(parts[1:], batches, strict=True) if not part.isfinite())
+        raise _not_finite(run, f"loss is {loss}", [one for batch in bad for one in batch.ids])
+    norm = _update(run, samples)
+    trained = int(tokens)
     state.step += 1
     state.tokens += trained
     state.completion_tokens += count
@@ -150,23 +169,27 @@ def _step(run: Run, indices: list[list[int]]) -> None:
     run.report.step(record, run.total_steps, left, peak_memory(run.device))
 
 
-def _update(run: Run, batches: list[Batch]) -> float:
+def _update(run: Run, samples: list[Sample]) -> float:
     """Clip the gradient, step the optimizer, and return the gradient's norm before clipping."""
+    if run.ranks.world > 1:
+        add_gradients(run.model, run.ranks)
     run.scaler.unscale_(run.optimizer)
     weights = adapter_parameters(run.model).values()
     norm = float(torch.nn.utils.clip_grad_norm_(weights, run.settings.gradient_clip))
     # In float16 an overflow is ordinary: the scaler skips the step and scales the next loss less.
     if not math.isfinite(norm) and not run.scaler.is_enabled():
-        raise _not_finite(run, f"gradient norm is {norm}", batches[0])
+        raise _not_finite(run, f"gradient norm is {norm}", [sample.id for sample in samples])
     run.scaler.step(run.optimizer)
     run.scaler.update()
     run.optimizer.zero_grad(set_to_none=True)
     return norm if math.isfinite(norm) else -1.0
 
 
-def _not_finite(run: Run, finding: str, batch: Batch) -> PlannerError:
+def _not_finite(run: Run, finding: str, samples: list[str]) -> PlannerError:
+    """`samples` is empty where another process has the sample."""
+    of = f", sample {', '.join(samples)}" if samples else ""
     return PlannerError(
-        f"step {run.state.step + 1}, sample {', '.join(batch.ids)}: the {finding}; lower"
+        f"step {run.state.step + 1}{of}: the {finding}; lower"
         f" --learning-rate (now {run.settings.learning_rate:g}) or --gradient-clip (now"
         f" {run.settings.gradient_clip:g}), or look at that sample with --preview-id; the"
         f" checkpoints in {run.output} are from before"
@@ -179,7 +202,8 @@ def _end_epoch(run: Run) -> None:
     text = f"epoch {epoch:g}: training loss {state.loss:.4f}"
     state.epoch_loss, state.epoch_tokens = 0.0, 0
     if run.validation:
-        loss = validation_loss(run.model, run.validation, run.pad, run.device, run.dtype)
+        known = run.model, run.validation, run.pad, run.device, run.dtype
+        loss = validation_loss(*known, run.ranks)
         if not math.isfinite(loss):
             rate = f"lower --learning-rate (now {run.settings.learning_rate:g})"
             raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; {rate}")

@@ -12,6 +12,7 @@ from torch.utils.checkpoint import checkpoint
 
 from planner_ft.candidates.packing import linear_4bit
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.batches import Batch, collate, validation_batches
 from planner_ft.training.lean import lean_states
 from planner_ft.training.settings import TrainSettings
@@ -147,16 +148,32 @@ def evaluating(model: Any) -> Iterator[None]:
 
 
 def validation_loss(
-    model: Any, samples: Sequence[Sample], pad: int, device: torch.device, dtype: torch.dtype
+    model: Any,
+    samples: Sequence[Sample],
+    pad: int,
+    device: torch.device,
+    dtype: torch.dtype,
+    ranks: Ranks = ALONE,
 ) -> float:
-    """Mean cross-entropy over all completion tokens of `samples`."""
-    total, count = 0.0, 0
+    """Mean cross-entropy over all completion tokens of `samples`, which all processes share."""
+    found = torch.zeros(2, dtype=torch.float64)
     with evaluating(model):
-        for indices in validation_batches([sample.length for sample in samples]):
+        every = list(validation_batches([sample.length for sample in samples]))
+        for indices in ranks.share(every):
             batch = collate([samples[index] for index in indices], pad).to(device)
-            total += float(loss_sum(model, batch, dtype))
-            count += len(batch.targets)
-    return total / count
+            found += torch.tensor([float(loss_sum(model, batch, dtype)), len(batch.targets)])
+    total, count = ranks.add_up(found).tolist()
+    return float(total / count)
+
+
+def add_gradients(model: Any, ranks: Ranks) -> None:
+    """Put the sum over all processes in the place of every gradient; those without a batch add 0."""
+    weights = list(adapter_parameters(model).values())
+    own = [torch.zeros_like(one) if one.grad is None else one.grad for one in weights]
+    summed = ranks.add_up(torch.cat([one.flatten() for one in own]))
+    sizes = [one.numel() for one in own]
+    for one, gradient in zip(weights, torch.split(summed, sizes), strict=True):
+        one.grad = gradient.view_as(one)
 
 
 def make_optimizer(model: Any, settings: TrainSettings) -> torch.optim.Optimizer:

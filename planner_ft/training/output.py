@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import torch
 
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, SEEN, WEIGHTS, adapter_record
+from planner_ft.candidates.registry import model_metadata
 from planner_ft.prompts.render import prompt_frame, save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_text, sha256_file, write_json, write_text
@@ -35,8 +36,8 @@ TOKENIZER = (
 )
 WRITTEN = f"{CONFIG} {WEIGHTS} README.md {MANIFEST} {SEEN} {LOG} loss.png loss.svg {TOKENIZER}"
 """All files that a run writes; --overwrite removes them and the folders of checkpoints and logs."""
-LICENCES = {"Apache-2.0": "apache-2.0"}
-"""Licences with an identifier of the Hub; model cards name others in full."""
+BEFORE = {"processes": 1}
+"""What the records of earlier versions do not name."""
 PROBLEMS = {
     "foreign": "exists and is no folder of a training run; give another folder",
     "complete": "holds a finished adapter; give --overwrite to train it again, or another folder",
@@ -103,7 +104,7 @@ def differing(stored: Values, current: Values) -> list[str]:
     """Sentences on everything that differs from the run that is to be resumed."""
     problems = []
     for key, now in current.items():
-        before, name = stored.get(key), key.replace("_", " ")
+        before, name = stored.get(key, BEFORE.get(key)), key.replace("_", " ")
         if key == "settings" and isinstance(before, dict):
             problems += [
                 f"--{setting.replace('_', '-')} was {before.get(setting)} and is {value}"
@@ -172,7 +173,8 @@ def run_manifest(
         base_reference=candidate.reference,
         licence=candidate.licence,
         samples={role: len(split.samples) for role, split in splits.items()},
-        departures=[*request.resolved.departures(request.level), *tests_warnings(prepared.tests)],
+        processes=request.processes,
+        departures=[*request.departures(), *tests_warnings(prepared.tests)],
         tests_trained_on=prepared.tests,
         result=_result(run, output / WEIGHTS),
         prompt={"before": before, "after": after},
@@ -219,6 +221,7 @@ def model_card(manifest: Values) -> str:
     blocks: Values = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, **blocks)
     environment.filters |= {"json": json.dumps, "name": lambda path: Path(path).name}
-    values = {"s": manifest["configuration"], "r": manifest["result"], "licences": LICENCES}
+    values = {"s": manifest["configuration"], "r": manifest["result"]}
+    values["metadata"] = model_metadata(manifest, "peft")
     card = read_text(Path(__file__).parent / "card.md.jinja")
     return environment.from_string(card).render(m=manifest, **values)

@@ -73,6 +73,25 @@ class Report:
             self.trackers.end_training()
 
 
+class Silence(Report):
+    """The report of a process that another one speaks for."""
+
+    def __init__(self) -> None:
+        pass
+
+    def record(self, values: Record) -> None:
+        pass
+
+    def step(self, record: Record, total: int, seconds_left: float, peak: int) -> None:
+        pass
+
+    def note(self, text: str) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
 def read_log(path: Path) -> list[Record]:
     """The records of a log; a last line that a killed run left incomplete is passed over."""
     records = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,12 +12,15 @@ from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_toml
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.settings import Resolved, Source, TrainSettings, resolve_settings
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
 
 T = TypeVar("T")
 BUNDLED = Path(__file__).parent / "recipes"
+LAUNCHED = {"ACCELERATE_USE_FSDP": "FSDP", "ACCELERATE_USE_DEEPSPEED": "DeepSpeed"}
+"""Variables of accelerate's launcher for models in parts."""
 RUN_KEYS = (
     *("level", "candidate", "vocabulary", "data_dir", "train_file", "validation_file"),
     *("corrections", "output"),
@@ -40,6 +44,7 @@ class TrainRequest:
     overwrite: bool = False
     resume: bool = False
     corrections: Path | None = None
+    processes: int = 1
 
     @property
     def settings(self) -> TrainSettings:
@@ -58,7 +63,16 @@ class TrainRequest:
             "training_data": training,
             "validation_data": validation,
             "settings": self.settings.learned(),
+            "processes": self.processes,
         }
+
+    def departures(self) -> list[str]:
+        """Sentences on published settings that this run does not use."""
+        found, each = self.resolved.departures(self.level), self.settings.batch_size
+        if self.processes > 1:
+            shared = f"{each} for each of {self.processes} processes"
+            found.append(f"batch size {each * self.processes} ({shared})")
+        return found
 
 
 def bundled_recipes() -> list[str]:
@@ -84,6 +98,7 @@ def build_request(
     recipe: str | None = None,
     overwrite: bool = False,
     resume: bool = False,
+    ranks: Ranks = ALONE,
 ) -> TrainRequest:
     """Combine flags, recipe, the candidate's adapter settings, published ones and defaults. `run`
     holds RUN_KEYS, None where not given. Raises PlannerError that lists every problem.
@@ -127,6 +142,8 @@ def build_request(
     resolved = resolve_settings(level or "mission", sources, problems)
     if resolved.settings.select == "f1" and not resolved.settings.validation_answers:
         problems.append("--select f1 needs --validation-answers of at least 1")
+    problems += launch_problems(ranks, resolved.settings)
+    resolved = resolved.on(ranks.device(resolved.settings.device))
     if problems or not (level and candidate and vocabulary):
         raise refusal("the configuration has", problems)
     output = Path(named.get("output") or Path("adapters") / candidate.slug / level)
@@ -135,9 +152,33 @@ def build_request(
     if named.get("train_file"):
         files = Path(named["train_file"]), _path(named.get("validation_file"))
     corrections = _path(named.get("corrections"))
+    paths, again = (*files, output), (overwrite, resume)
     return TrainRequest(
-        level, candidate, vocabulary, *files, output, resolved, overwrite, resume, corrections
+        level, candidate, vocabulary, *paths, resolved, *again, corrections, ranks.world
     )
+
+
+def launch_problems(ranks: Ranks, settings: TrainSettings) -> list[str]:
+    """What several processes, as a launcher started them, cannot do."""
+    if ranks.world == 1:
+        return []
+    import torch
+
+    problems, count = [], torch.cuda.device_count()
+    if settings.device.startswith("cuda:"):
+        each = "each process takes a GPU of its own; leave it out"
+        problems.append(f"--device {settings.device}: {each}")
+    elif settings.device != "cpu" and 0 < count <= ranks.local:
+        fewer = f"start {count}, or give --device cpu"
+        problems.append(f"more processes than the {count} GPUs of this machine: {fewer}")
+    for name, text in LAUNCHED.items():
+        if os.environ.get(name, "false").lower() in ("true", "1"):
+            problems.append(f"{text}: every process holds the whole model; launch with --multi_gpu")
+    asked = os.environ.get("ACCELERATE_MIXED_PRECISION", "no")
+    if asked != "no":
+        own = "the device's own precision is taken; launch with --mixed_precision no"
+        problems.append(f"--mixed_precision {asked}: {own}")
+    return problems
 
 
 def refusal(title: str, problems: list[str]) -> PlannerError:

@@ -13,7 +13,8 @@ from planner_ft.candidates.loading import compute_dtype, load_model, load_tokeni
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.terminal import show
+from planner_ft.support.ranks import ALONE, Ranks
+from planner_ft.support.terminal import show, terminal
 from planner_ft.training.checkpoint import Judging, Run, load_newest_checkpoint
 from planner_ft.training.loop import InterruptedRunError, train_loop
 from planner_ft.training.model import (
@@ -27,7 +28,7 @@ from planner_ft.training.model import (
 from planner_ft.training.output import begin, folder_state, is_unfinished, write_result, write_run
 from planner_ft.training.preflight import CHECKS, Finding, Prepared, longest, run_preflight
 from planner_ft.training.probe import probe_model
-from planner_ft.training.report import Report
+from planner_ft.training.report import Report, Silence
 from planner_ft.training.request import TrainRequest, refusal
 from planner_ft.training.samples import Sample, read_split
 
@@ -53,23 +54,23 @@ def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample
 
 
 def train(
-    request: TrainRequest, console: Console, new_judge: NewJudge | None = None
+    request: TrainRequest, console: Console, new_judge: NewJudge | None = None, ranks: Ranks = ALONE
 ) -> dict[str, Any] | None:
     """Run the checks, train, write the adapter folder and return its manifest. What `new_judge`
-    makes answers validation samples after each epoch. None when --resume finds the run complete.
-    Raises PlannerError for anything that the user can put right, and InterruptedRunError after
-    Ctrl-C.
+    makes answers validation samples after each epoch. Of several processes the first does so; the
+    others add gradients.
+
+    None when --resume finds the run complete, and for the others. Raises PlannerError for anything
+    that the user can put right, and InterruptedRunError after Ctrl-C.
     """
-    for text in request.resolved.departures(request.level):
+    if not ranks.leads:
+        console, new_judge = terminal(quiet=True), None
+    for text in request.departures():
         _say(console, f"note: {text}")
-    with alone(request.output, "--output", "a training"):
-        prepared, problems = Prepared(), []
-        with console.status("checking ..."):
-            for number, finding in enumerate(run_preflight(request, prepared), 1):
-                problems += finding.problems
-                _show(console, number, finding)
-        if problems:
-            raise refusal("the preflight found", problems)
+    with alone(request.output if ranks.leads else None, "--output", "a training"):
+        prepared = Prepared()
+        with ranks.one_voice():
+            _check(request, prepared, console)
         assert prepared.train and request.candidate.folder
         validation = prepared.validation.sha256 if prepared.validation else None
         base = weights_sha256(request.candidate.folder)
@@ -80,8 +81,19 @@ def train(
         if request.resume and not is_unfinished(request.output, fingerprint):
             _say(console, f"{request.output}: this run is complete; nothing to resume")
             return None
+        ranks.wait()  # everybody has seen the folder as it was
         with _limits(request, prepared):
-            return _train(request, prepared, console, fingerprint, new_judge)
+            return _train(request, prepared, console, fingerprint, new_judge, ranks)
+
+
+def _check(request: TrainRequest, prepared: Prepared, console: Console) -> None:
+    problems = []
+    with console.status("checking ..."):
+        for number, finding in enumerate(run_preflight(request, prepared), 1):
+            problems += finding.problems
+            _show(console, number, finding)
+    if problems:
+        raise refusal("the preflight found", problems)
 
 
 def _train(
@@ -90,7 +102,8 @@ def _train(
     console: Console,
     fingerprint: dict[str, Any],
     new_judge: NewJudge | None,
-) -> dict[str, Any]:
+    ranks: Ranks,
+) -> dict[str, Any] | None:
     settings, output = request.settings, request.output
     with console.status("loading the model ..."):
         model, finding = ready_model(request, prepared)
@@ -101,12 +114,18 @@ def _train(
     assert device and train
     torch.manual_seed(settings.seed)
     samples = train.samples, validation.samples if validation else []
-    run = Run(settings, model, *samples, prepared.pad, device, compute_dtype(device), output)
+    dtype = compute_dtype(device)
+    run = Run(settings, model, *samples, prepared.pad, device, dtype, output, ranks=ranks)
     if new_judge and validation and settings.validation_answers:
         run.judge = new_judge(request, prepared, run)
     if request.resume:
-        write_run(output, fingerprint, "running")
         _say(console, load_newest_checkpoint(run))
+    run.report = Silence()
+    if not ranks.leads:
+        train_loop(run)
+        return None
+    if request.resume:
+        write_run(output, fingerprint, "running")
     else:
         begin(output, fingerprint)
     name = f"{request.candidate.slug}-{request.level}"
@@ -174,7 +193,7 @@ def _show(console: Console, number: int, finding: Finding) -> None:
     _say(console, line, "red" if found else None)
     for note in finding.notes:
         _say(console, f"      note: {note}", "yellow")
-    for text in finding.warnings:
+    for text in [] if console.quiet else finding.warnings:
         show(f"warning: {text}", error=True)
 
 

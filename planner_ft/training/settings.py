@@ -9,7 +9,7 @@ import difflib
 import math
 import tomllib
 from collections.abc import Iterable
-from dataclasses import Field, asdict, dataclass, fields
+from dataclasses import Field, asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -120,6 +120,10 @@ class Resolved:
 
     settings: TrainSettings
     origin: dict[str, str]
+
+    def on(self, device: str) -> Resolved:
+        """The same settings on another device."""
+        return replace(self, settings=replace(self.settings, device=device))
 
     def departures(self, level: Level) -> list[str]:
         """Sentences on published settings that this run does not use."""

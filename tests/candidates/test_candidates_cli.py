@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,11 @@ from typer.testing import CliRunner
 
 from planner_ft.candidates import diagnosis
 from planner_ft.candidates.diagnosis import probe_four_bit
+from planner_ft.candidates.times import ANSWER_TOKENS
 from planner_ft.cli.candidates import candidates, doctor
+
+ROOT = Path(__file__).parents[2]
+PUBLISHED = ROOT / "planner_ft" / "benchmark" / "published"
 
 
 @pytest.fixture
@@ -44,6 +49,38 @@ def test_the_table_says_what_fits_and_how_to_get_it(
     assert embedded.split()[-1] == "package"
     assert 'hf download meta-llama/Llama-3.2-3B-Instruct --exclude "original/*"' in output
     assert "accept the licence" in output
+
+
+def test_the_times_are_estimates_that_fit_the_published_latencies(run: Any) -> None:
+    """One constant gives the study's seconds a token of all seven within 6 %."""
+    lines = (PUBLISHED / "mission.csv").read_text().splitlines()
+    published = {row["model"]: row for row in csv.DictReader(lines)}
+    for entry in json.loads(run("candidates", "--json"))[:-1]:
+        row = published[entry["row"]]
+        seconds = float(row["latency_s_lora"]) / float(row["tokens_lora"])
+        assert entry["times"]["answer_s"] == pytest.approx(ANSWER_TOKENS * seconds, rel=0.06)
+    assert "Estimates, not measurements" in run("candidates")
+
+
+def test_training_takes_longer_for_more_weights_and_more_samples(run: Any) -> None:
+    times = {one["name"]: one["times"] for one in json.loads(run("candidates", "--json"))}
+    small, middle, large = (times[f"Llama-3.{name}B"] for name in ("2-1", "2-3", "1-8"))
+    assert small["train_mission_s"] < middle["train_mission_s"] < large["train_mission_s"]
+    # 32 times as many samples, of more tokens.
+    assert 32 < large["train_task_s"] / large["train_mission_s"] < 32 * 420 / 270
+
+
+def test_the_table_in_the_documentation_is_what_the_command_prints(
+    run: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("PLANNERFT_MODELS", raising=False)
+    page = (ROOT / "docs" / "training.md").read_text("utf-8")
+    assert run("candidates", "--markdown").strip() in page
+
+
+def test_where_a_model_is_stands_there_as_words(run: Any, models: Path) -> None:
+    output = run("candidates")
+    assert "stand-in" in output and "[" not in output.split("To get")[0]
 
 
 def test_json_holds_every_candidate_with_memory_and_place(run: Any, models: Path) -> None:

@@ -30,7 +30,7 @@ def options() -> dict[str, dict[str, Any]]:
 
 def test_every_option_has_help() -> None:
     found = options()
-    assert len(found) == 19
+    assert len(found) == 20
     assert [
         (name, key) for name, given in found.items() for key, item in given.items() if not item.help
     ] == []

@@ -127,10 +127,12 @@ def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None
         assert json.loads(chat["messages"][2]["content"]) == record["expected"]
         assert [*chat["prompt"], *chat["completion"]] == chat["messages"]
         assert [message["role"] for message in chat["completion"]] == ["assistant"]
-        file = str(tmp_path / level / "chat" / "train.jsonl")
-        rows = datasets.load_dataset(
-            "json", data_files=file, split="train", cache_dir=str(tmp_path / "cache")
-        )
+        # By the names in the card, as from the Hub.
+        folder, cache = str(tmp_path / level), str(tmp_path / "cache")
+        loaded = datasets.load_dataset(folder, "chat", cache_dir=cache)
+        assert {"train", "validation", "test"} <= set(loaded)
+        rows = loaded["train"]
+        assert len(rows) == SMALL["train"]
         assert rows.column_names == ["id", "messages", "prompt", "completion"]
         assert rows[0]["completion"] == chat["completion"]
 

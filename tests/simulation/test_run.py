@@ -7,7 +7,6 @@ import json
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +20,11 @@ from planner_ft.document import read_document, write_document
 from planner_ft.review import log_beside, reject
 from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.faults import read_faults
-from planner_ft.simulation.navigation import Turn
 from planner_ft.simulation.run import Simulated, SimulationSettings, simulate
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
-from tests.documents import DRONE, USV, document, step, task
+from tests.documents import DRONE, document, step, task
 
 from .conftest import Run
 from .plans import go, lines, saved, transit, using
@@ -110,44 +108,6 @@ def test_a_plan_without_approval_is_refused_or_a_marked_draft(tmp_path: Path) ->
         simulate(settings(path))
 
 
-@pytest.mark.parametrize("draft", [False, True])
-def test_an_altered_plan_is_refused(tmp_path: Path, draft: bool) -> None:
-    path = saved(tmp_path, SHORT)
-    content = json.loads(path.read_text())
-    content["tasks"][0]["skill_sequence"][0]["navigation_skill"]["parameters"]["x"] = 99
-    path.write_text(json.dumps(content))
-    with pytest.raises(PlannerError, match="altered since Ada approved it"):
-        simulate(settings(path, draft=draft))
-
-
-def test_another_vehicle_is_refused(tmp_path: Path) -> None:
-    path = saved(tmp_path, SHORT)
-    with pytest.raises(PlannerError, match="another vocabulary"):
-        simulate(settings(path, vocabulary="inspection_drone"))
-
-
-def test_what_cannot_run_is_refused_before_anything_is_written(tmp_path: Path) -> None:
-    unknown = task("Transit", {"target_position": [-99, -99]}, None, prompt="Go to the raft.")
-    endless = task("PerformOrbit", {"center": [20, 0]}, [using(step("ArcTurn"))])
-    cases: list[tuple[list[dict[str, Any]], dict[str, Any], dict[str, Any], str]] = [
-        ([unknown], {}, {}, "is not known, and t1 needs it"),
-        ([endless], {}, {}, "t1 PerformOrbit: its movement is not known in full"),
-        (SHORT, {"chart": {"buoy": (0.5, 0.0)}}, {}, r"would start in buoy, at \[0, 0\]"),
-        (SHORT, {"constraints": [FENCE.format(5)]}, {}, r"excludes the start \[0, 0\]"),
-        (SHORT, {}, {"starts": ((60.0, 0.0),), "runs": 0}, "--runs 0: must be from 1"),
-        (SHORT, {}, {"mcap": 3}, "--mcap 3"),
-        (SHORT, {}, {"tolerance": 0}, "--tolerance 0"),
-        (SHORT, {}, {"simulator": "sea"}, "--simulator sea: must be one of fast"),
-    ]
-    for number, (tasks, how, given, message) in enumerate(cases):
-        folder = tmp_path / str(number)
-        folder.mkdir()
-        path = saved(folder, tasks, **how)
-        with pytest.raises(PlannerError, match=message):
-            simulate(settings(path, **given))
-        assert not (folder / "plan.simulation").exists()
-
-
 def test_ros_logs_need_their_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mcap_ros2", None)
     path = saved(tmp_path, SHORT)
@@ -202,18 +162,6 @@ def test_a_drone_has_no_port_thruster(tmp_path: Path) -> None:
         simulate(settings(path, faults=read_faults(["port=0.5"])))
 
 
-def test_a_second_simulation_needs_its_own_folder(run: Run, tmp_path: Path) -> None:
-    done = run(SHORT)
-    before = (done.settings.folder / "results.json").read_bytes()
-    with pytest.raises(PlannerError, match=r"--out .* holds .*--overwrite"):
-        simulate(replace(done.settings, overwrite=False, seed=5))
-    assert (done.settings.folder / "results.json").read_bytes() == before
-    (done.settings.folder / "thesis.txt").write_text("mine")
-    with pytest.raises(PlannerError, match=r"holds thesis\.txt"):
-        simulate(done.settings)
-    assert (done.settings.folder / "results.json").read_bytes() == before
-
-
 KILL = """
 import os, signal, sys
 from pathlib import Path
@@ -241,20 +189,6 @@ def test_the_logs_of_a_killed_simulation_can_be_read(tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="--overwrite"):
         simulate(settings(path))
     assert simulate(settings(path, overwrite=True)).results[0].success
-
-
-def test_a_command_that_is_no_number_stops_the_run(
-    run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def broken(self: Turn, runs: Any, command: Any) -> Any:
-        return np.full((len(runs), 4), np.where(self.scene.time > 1, np.nan, 0.1))
-
-    monkeypatch.setattr(Turn, "step", broken)
-    turn = using(step("RotateToHeading", {"heading": 90}))
-    done = run([transit(0, 0, turn)])
-    text = "RotateToHeading: its command is not finite; no failure mode of the step says more"
-    assert outcome(done) == ({"stopped"}, {text})
-    assert np.isfinite(done.scene.pose).all()
 
 
 def test_a_run_is_aborted_at_once(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -334,12 +268,3 @@ def test_violations_of_fences_are_counted(run: Run) -> None:
     assert {one.outcome for one in close.results} <= {"done", "returned"}
     assert "returned" in {one.outcome for one in close.results}
     assert max(one.seconds for one in close.results) < 120
-
-
-def test_bad_options_exit_with_2(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
-) -> None:
-    path = saved(tmp_path, SHORT, USV)
-    for arguments in (["--start", "here"], ["--fault", "fog"], ["--runs", "0"], ["--locate", "x"]):
-        assert command(monkeypatch, path, *arguments) == 2
-        assert arguments[0] in capsys.readouterr().err

@@ -65,7 +65,7 @@ def test_a_command_becomes_runs_in_both_simulators(tmp_path: Path) -> None:
     (record,) = read_log(log_beside(plan))
     assert record["event"] == "approved" and "read by nobody" in record["reason"]
     table = (tmp_path / "out" / "table.md").read_text()
-    assert table.count("| 2 | 100.0 [") == 4 and table.count("| published | 20 | 100.0 |") == 2
+    assert table.count("| 2 | 100.0 [") == 4 and table.count(", published* | 20 | 100.0 |") == 2
     first = (tmp_path / "out" / "two" / "fast" / "run-01.jsonl").read_text()
     assert '"skills":["SurveyTarget"' in first
 

@@ -66,7 +66,9 @@ def ask(models: Path, data: Path, tmp_path: Path) -> Callable[..., Any]:
         )
         run |= {key: values.pop(key) for key in names if key in values}
         options = {
-            key: values.pop(key) for key in ("recipe", "overwrite", "resume") if key in values
+            key: values.pop(key)
+            for key in ("recipe", "overwrite", "resume", "ranks")
+            if key in values
         }
         return build_request(run, values, **options)
 

@@ -59,7 +59,7 @@ def test_the_folder_of_a_finished_run(ask, quiet, tmp_path, short):
     assert (output / "loss.png").read_bytes().startswith(b"\x89PNG")
     card = (output / "README.md").read_text()
     assert card.startswith(
-        "---\nbase_model: meta-llama/Llama-3.2-1B-Instruct\nlibrary_name: peft\n"
+        "---\nbase_model: meta-llama/Llama-3.2-1B-Instruct\nlanguage: en\nlibrary_name: peft\n"
     )
     assert "**Stand-in.**" in card
 

@@ -9,11 +9,13 @@ import pytest
 pytest.importorskip("trl")
 pytestmark = pytest.mark.peers
 
+import torch  # noqa: E402
 from datasets import load_dataset  # noqa: E402
 from trl import SFTConfig, SFTTrainer  # noqa: E402
 
-from planner_ft.candidates.loading import compute_dtype, load_model, load_tokenizer  # noqa: E402
+from planner_ft.candidates.loading import load_model, load_tokenizer  # noqa: E402
 from planner_ft.data.generate import GenerationSettings, generate  # noqa: E402
+from planner_ft.prompts.render import with_fixed_date  # noqa: E402
 from planner_ft.prompts.text import chat_messages  # noqa: E402
 from planner_ft.training.model import attach_adapter  # noqa: E402
 from planner_ft.training.run import train  # noqa: E402
@@ -23,7 +25,10 @@ COUNT, STEPS = 4, 3
 
 
 @pytest.mark.parametrize("level", ["mission", "task"])
-def test_sft_trainer_trains_to_our_loss(level, ask, quiet, tmp_path, models):
+def test_sft_trainer_trains_to_our_loss(level, ask, quiet, tmp_path, models, monkeypatch):
+    # In bfloat16 two programs round differently.
+    for place in ("planner_ft.candidates.loading", "planner_ft.training.run"):
+        monkeypatch.setattr(f"{place}.compute_dtype", lambda _device: torch.float32)
     sizes = {"train": COUNT, "validation": 1, "test": 1}
     generate(GenerationSettings(level, tmp_path, chat=True, **sizes), messages=chat_messages)
     folder = tmp_path / level
@@ -46,18 +51,19 @@ def test_sft_trainer_trains_to_our_loss(level, ask, quiet, tmp_path, models):
         save_strategy="no",
         use_cpu=True,
         gradient_checkpointing=False,
-        bf16="bfloat16" in str(compute_dtype(model.device)),
+        bf16=False,
     )
     data = load_dataset("json", data_files=str(folder / "chat/train.jsonl"), split="train")
     tokenizer = load_tokenizer(request.candidate)
+    # Llama's template would write today's date.
+    tokenizer.chat_template = with_fixed_date(tokenizer.chat_template)
     trainer = SFTTrainer(model, settings, train_dataset=data, processing_class=tokenizer)
     trainer.train()
     theirs = [line for line in trainer.state.log_history if "loss" in line]
     log = (tmp_path / "adapter" / "train_log.jsonl").read_text().splitlines()
     ours = [line for line in map(json.loads, log) if "loss" in line]
     assert len(ours) == len(theirs) == STEPS
+    # Trained on the prompt as well, the second gradient would be 14 % shorter.
     for one, other in zip(ours, theirs, strict=True):
-        assert other["loss"] == pytest.approx(one["loss"], rel=3e-4)
-    # Trained on the prompt as well, the second gradient is 14 % shorter; in bfloat16 later ones part.
-    for one, other in zip(ours[:2], theirs, strict=False):
-        assert other["grad_norm"] == pytest.approx(one["grad_norm"], rel=3e-2)
+        for name in ("loss", "grad_norm"):
+            assert other[name] == pytest.approx(one[name], rel=1e-4)

@@ -24,7 +24,7 @@ from planner_ft.review.store import ChangedError
 from planner_ft.review.web.guard import ASK_THE_TERMINAL, LARGEST_BODY, TOO_LARGE, Door, Guard
 from planner_ft.review.web.planning import BusyError
 from planner_ft.review.web.session import Session
-from planner_ft.support.errors import PlannerError
+from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.files import compact_json, decode_json
 
 PAGE = Path(__file__).parent / "page"
@@ -117,12 +117,13 @@ def _api_routes(session: Session) -> list[Route]:
         Route("/api/track", track),
         change(session.run, "revision", "name", "speed"),
         change(session.abort, "name"),
-        change(session.plan, "command", "locate"),
-        change(session.edit, "revision", "edit"),
+        change(session.plan, "command", "locate", "sure"),
+        change(session.edit, "revision", "edit", "by"),
         change(session.undo, "revision"),
-        change(session.skills, "revision", "task"),
+        change(session.skills, "revision", "task", "by"),
         change(session.approve, "revision", "name", "acknowledged"),
         change(session.reject, "revision", "name", "reason"),
+        change(session.export, "revision", "formats", "origin", "overwrite", "sure"),
         change(session.open, "path"),
     ]
 
@@ -143,6 +144,10 @@ async def _body(request: Request) -> dict[str, Any]:
     return value
 
 
+OPTIONAL: dict[str, Any] = {"by": "", "origin": "", "sure": False, "overwrite": False}
+"""Keys that a request may leave out, and what they are then."""
+
+
 def _field(body: dict[str, Any], key: str) -> Any:
     """The value of a key, of the type that this key has. Raises PlannerError."""
     value = body.get(key)
@@ -154,7 +159,11 @@ def _field(body: dict[str, Any], key: str) -> Any:
         fits, expected = type(value) in (int, float), "a number"
     elif key == "edit":
         fits, expected = isinstance(value, dict), "an object"
-    elif key == "acknowledged":
+    elif key in OPTIONAL:
+        value = OPTIONAL[key] if value is None else value
+        fits = isinstance(value, type(OPTIONAL[key]))
+        expected = "true or false" if isinstance(OPTIONAL[key], bool) else "a text"
+    elif key in ("acknowledged", "formats"):
         fits = isinstance(value, list) and all(isinstance(item, str) for item in value)
         expected = "a list of texts"
     else:
@@ -190,7 +199,8 @@ async def _problem(_request: Request, error: Exception) -> Response:
         count = f"{len(error.missing)} warnings are not acknowledged"
         sentence = f"{count}; read each of them and acknowledge it."
         return Json({"error": sentence, "missing": list(error.missing)}, 422)
-    return Json({"error": str(error)}, 409 if isinstance(error, BusyError) else 422)
+    more = {"question": error.question} if isinstance(error, QuestionError) else {}
+    return Json({"error": str(error), **more}, 409 if isinstance(error, BusyError) else 422)
 
 
 async def _gone(_request: Request, _error: Exception) -> Response:

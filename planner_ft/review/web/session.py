@@ -4,25 +4,27 @@ from __future__ import annotations
 
 import ipaddress
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
-from planner_ft.document import PlanDocument, altered, build, differences, read_document
-from planner_ft.document.track import track
+from planner_ft.document import PlanDocument, altered, build, read_document
 from planner_ft.document.vehicle import Vehicle
+from planner_ft.document.warnings.command import other_language
 from planner_ft.planning.essentials import asked as needed
 from planner_ft.planning.locations import Position, is_open
 from planner_ft.planning.planner import SkillsKnown, TasksKnown, check_command
 from planner_ft.planning.result import Answer
 from planner_ft.planning.settings import PlanSettings
+from planner_ft.review.approval import check_name
 from planner_ft.review.desk import Desk, skills_edit
 from planner_ft.review.log import log_beside
 from planner_ft.review.store import ChangedError, add_plan, plan_names, signature
 from planner_ft.review.web.events import Events
 from planner_ft.review.web.planning import Planning
 from planner_ft.review.web.run import Runner, Runs
-from planner_ft.support.errors import PlannerError
+from planner_ft.review.web.state import State, plan_state, vocabulary_json
+from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import task_entry
@@ -48,15 +50,13 @@ EDITS = (
     "drop",
 )
 """The kinds of edits that a page makes: not those that record an agent's answer or an adoption."""
-PLAN = ("document", "path", "revision", "track")
-"""Keys of the state that are None without a plan."""
-State = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class WebSettings:
-    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's, `origin` is
-    that of new commands.
+    """Address, files and agents: `port` 0 is a free one, log and folder are the plan's, `reviewer`
+    is the name that the page begins with, `origin` is that of new commands, `exporting` writes
+    approved plans for vehicles.
     """
 
     host: str = LOOPBACK
@@ -64,8 +64,10 @@ class WebSettings:
     open_browser: bool = True
     log: Path | None = None
     folder: Path | None = None
+    reviewer: str = ""
     planning: PlanSettings = field(default_factory=PlanSettings)
     origin: Origin | None = None
+    exporting: Exporting | None = None
     runner: Runner | None = None
 
     def __post_init__(self) -> None:
@@ -83,6 +85,18 @@ class WebSettings:
             return False
 
 
+class Exporting(Protocol):
+    """What writes approved plans for vehicles (planner_ft.exporters.page)."""
+
+    def formats(self) -> list[dict[str, Any]]:
+        """The formats that there are."""
+
+    def hand_over(
+        self, plan: Path, log: Path, names: list[str], origin: str, *, overwrite: bool, sure: bool
+    ) -> list[dict[str, Any]]:
+        """Write a plan in these formats. Raises QuestionError for a doubtful origin."""
+
+
 class Session:
     """State and actions of the pages, from any thread; a PlannerError is shown to people."""
 
@@ -97,7 +111,8 @@ class Session:
         self.path, self.vocabulary, self.vehicle = plan, vocabulary, vehicle
         self.folder = settings.folder or (plan.parent if plan else Path())
         self.log = settings.log or log_beside(self.folder / "any")
-        self.origin = settings.origin
+        self.origin, self.reviewer = settings.origin, settings.reviewer
+        self.exporting = settings.exporting
         self.events = Events()
         self.planning = Planning(settings.planning, self.events, self.tell_state)
         self.runs = Runs(settings.runner, self.log, vocabulary.source, self.events, self.tell_state)
@@ -108,12 +123,14 @@ class Session:
         """What a page shows, computed anew when plan or log changed. Raises PlannerError."""
         now = self._signature()
         if self._shown[0] != now:
-            self._shown = (now, self._plan_state())
+            self._shown = (now, plan_state(self._desk() if self.path else None))
         return {
             **self._shown[1],
             "planner": self.planning.as_json(),
             "busy": self.planning.busy,
             "vocabulary": vocabulary_json(self.vocabulary),
+            "formats": self.exporting.formats() if self.exporting else [],
+            "reviewer": self.reviewer,
             "plans": plan_names(self.folder),
             "run": self.runs.as_json(),
         }
@@ -134,12 +151,12 @@ class Session:
 
     # ------------------------------------------------------------ actions of a page
 
-    def edit(self, revision: str, edit: dict[str, Any]) -> State:
-        """Make one edit."""
+    def edit(self, revision: str, edit: dict[str, Any], name: str) -> State:
+        """Make one edit in the name of a person."""
         if edit.get("kind") not in EDITS:
             problem = f"is none that a page makes; there is {', '.join(EDITS)}"
             raise PlannerError(f"edit {str(edit.get('kind'))[:40]!r}: {problem}")
-        self._editable(revision).apply(edit)
+        self._editable(revision, name).apply(edit)
         return self._changed()
 
     def undo(self, revision: str) -> State:
@@ -156,6 +173,16 @@ class Session:
         """Record a rejection."""
         self._desk(revision).reject(name, reason)
         return self._changed()
+
+    def export(
+        self, revision: str, formats: list[str], origin: str, overwrite: bool, sure: bool
+    ) -> list[dict[str, Any]]:
+        """Write the approved plan in these formats. Raises QuestionError."""
+        if self.exporting is None:
+            raise PlannerError("nothing exports plans here; plannerft export does")
+        desk = self._desk(revision)
+        flags = {"overwrite": overwrite, "sure": sure}
+        return self.exporting.hand_over(desk.path, desk.log, formats, origin, **flags)
 
     def run(self, revision: str, name: str, speed: float) -> State:
         """Carry the approved plan out, watched by the pages."""
@@ -175,12 +202,16 @@ class Session:
         self.path = self.folder / name
         return self._changed()
 
-    def plan(self, command: str, locations: Mapping[str, Position]) -> None:
-        """Have a command planned into a file of its own, shown when done. Raises BusyError."""
+    def plan(self, command: str, locations: Mapping[str, Position], sure: bool = False) -> None:
+        """Have a command planned into a file of its own, shown when done. Raises BusyError, and
+        QuestionError for another language unless `sure`.
+        """
         if len(command) > LONGEST_COMMAND:
             limit = f"at most {LONGEST_COMMAND} are planned; shorten it"
             raise PlannerError(f"the command has {len(command)} characters, and {limit}")
         check_command(command)
+        if not sure and (question := other_language(command)):
+            raise QuestionError(question)
         places = {name: (x, y) for name, (x, y) in locations.items()}
 
         def work(planner: Planner) -> None:
@@ -190,7 +221,7 @@ class Session:
 
         self.planning.ask({"what": "planning", "label": "planning", "command": command}, work)
 
-    def skills(self, revision: str, task: str) -> None:
+    def skills(self, revision: str, task: str, by: str = "") -> None:
         """Ask the Task Agent again for a task, as an edit. Raises BusyError, ChangedError."""
         desk = self._desk(revision)
         asked = _task(desk.document, task)
@@ -204,32 +235,36 @@ class Session:
             if answer.plan is None:
                 problem = f"the Task Agent's answer is not valid ({answer.problems[0]})"
                 raise PlannerError(f"task {task}: {problem}; the task keeps the skills that it has")
-            self._take_skills(desk.path, asked, skills_edit(task, answer.plan, answer))
+            self._take_skills(desk.path, asked, skills_edit(task, answer.plan, answer), by)
 
         self.planning.ask({"what": "skills", "label": f"skills of task {task}"}, work)
 
     # ------------------------------------------------------------ parts
 
-    def _desk(self, revision: str | None = None) -> Desk:
+    def _desk(self, revision: str | None = None, by: str = "") -> Desk:
         """The plan as on the disk. Raises ChangedError when it is not of the given revision."""
         if self.path is None:
             raise ChangedError("there is no plan yet; plan a command first")
-        desk = Desk(self.path, self.log, self.vocabulary, _no_agent)
+        desk = Desk(self.path, self.log, self.vocabulary, _no_agent, by.strip() or None)
         if revision not in (None, desk.revision):
             raise ChangedError.of(self.path)
         return desk
 
-    def _editable(self, revision: str) -> Desk:
-        desk = self._desk(revision)
+    def _editable(self, revision: str, by: str = "") -> Desk:
+        if by.strip():
+            check_name(by)
+        desk = self._desk(revision, by)
         if altered(desk.document):
             name = desk.path.name
             way_out = f"take the changes over with `plannerft review {name} --adopt`"
             raise PlannerError(f"{name} was changed by hand; {way_out} before you edit it")
         return desk
 
-    def _take_skills(self, path: Path, asked: dict[str, Any], edit: dict[str, Any]) -> None:
+    def _take_skills(
+        self, path: Path, asked: dict[str, Any], edit: dict[str, Any], by: str
+    ) -> None:
         """Put a task's skills into the plan, which may have been edited meanwhile."""
-        desk, name = self._desk(), asked["id"]
+        desk, name = self._desk(by=by), asked["id"]
         if desk.path != path:
             problem = "another plan is shown since its skills were asked for"
             raise PlannerError(f"task {name}: {problem}; open {path.name} and ask again")
@@ -257,41 +292,6 @@ class Session:
 
     def _signature(self) -> Any:
         return self.path, signature(self.path), signature(self.log)
-
-    def _plan_state(self) -> State:
-        if self.path is None:
-            approval = _undecided("there is no plan yet")
-            return {**dict.fromkeys(PLAN), "differences": [], "approval": approval}
-        desk = self._desk()
-        document = desk.document
-        try:
-            approval = desk.approval().as_json()
-        except PlannerError as error:
-            # A log that is broken keeps nobody from looking at the plan.
-            approval = _undecided(str(error))
-        course = track(document, self.vocabulary).as_json()
-        values = (document, desk.path.name, desk.revision, course)
-        changed = [difference.as_json() for difference in differences(document)]
-        shown = dict(zip(PLAN, values, strict=True))
-        return {**shown, "differences": changed, "approval": approval}
-
-
-def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
-    """The vocabulary for the page: tasks, skills, home, and the place that is not known."""
-
-    def described(entry: Any, *keys: str) -> dict[str, Any]:
-        parameters = [asdict(parameter) for parameter in entry.parameters]
-        return {**{key: getattr(entry, key) for key in keys}, "parameters": parameters}
-
-    places = {"home": list(vocabulary.home), "unresolved": list(vocabulary.unresolved)}
-    tasks = [described(task, "title", "category", "description") for task in vocabulary.tasks]
-    keys, skills = ("category", "role", "description"), vocabulary.skills
-    by_name = {skill.name: described(skill, *keys) for skill in skills}
-    return {"name": vocabulary.name, **places, "tasks": tasks, "skills": by_name}
-
-
-def _undecided(text: str) -> dict[str, Any]:
-    return {"status": "unknown", "text": text, "reviewer": None, "time": None, "sequence": None}
 
 
 def _no_agent(_task: Mapping[str, Any]) -> Answer:

@@ -1,6 +1,6 @@
-// The chart of the track in the local frame: x east, y north, metres. Wheel, pinch and keys move the view; a target is placed here.
+// The chart of the track in the local frame: x east, y north, metres. Wheel, pinch and keys move the view; a place is put here.
 
-import { metres, number, place, seconds } from "./format.js";
+import { latitudeLongitude, metres, number, place, seconds } from "./format.js";
 import { gestures } from "./gestures.js";
 import { Areas, Grid, Legs, Places, Scale, Taken, Waypoints } from "./marks.js";
 import { Vessel } from "./run.js";
@@ -9,9 +9,10 @@ import { html, useEffect, useMemo, useRef, useState } from "./vendor.js";
 import { fit, pan, project, round, snap, unproject, zoom } from "./view.js";
 
 /** Everything that the first view must hold. */
-function extent({ track, vocabulary }) {
+function extent({ track, vocabulary, brief }) {
   const around = ({ center: [x, y], radius }) => [[x - radius, y - radius], [x + radius, y + radius]];
-  return [vocabulary.home, ...track.legs.flatMap((leg) => leg.points), ...track.circles.flatMap(around), ...track.boundaries.flatMap((boundary) => boundary.polygon), ...track.targets.map((target) => target.position).filter(Boolean)];
+  return [vocabulary.home, ...track.legs.flatMap((leg) => leg.points), ...track.circles.flatMap(around), ...track.boundaries.flatMap((boundary) => boundary.polygon), ...track.targets.map((one) => one.position).filter(Boolean),
+    ...brief.structures.flatMap(({ position, standoff }) => around({ center: position, radius: standoff })), ...brief.fences.flatMap((fence) => fence.polygon)];
 }
 
 function useSize(ref) {
@@ -27,7 +28,7 @@ function useSize(ref) {
 }
 
 export function Chart({ store }) {
-  const { track } = store.plan;
+  const { track, document: { origin } } = store.plan;
   const frame = useRef();
   const svg = useRef();
   const size = useSize(frame);
@@ -35,7 +36,7 @@ export function Chart({ store }) {
   const [own, setView] = useState(null); // null: the whole track, also when it changes
   const view = own || whole;
   const [cursor, hover] = useState(null);
-  const [aim, setAim] = useState(null); // where the target that is being placed would go
+  const [aim, setAim] = useState(null); // where the place that is being put would go
   const { placing } = store;
   useEffect(() => {
     setAim(placing ? snap(view, [view.x, view.y]) : null);
@@ -86,7 +87,7 @@ export function Chart({ store }) {
   const taken = new Taken();
   const middle = [size.width / 2, size.height / 2];
   return html`<section class="panel chart" aria-labelledby="chart-title">
-    <header><h2 id="chart-title">Chart</h2><span class="soft">local frame, x east, y north, metres</span><span class="space"></span>
+    <header><h2 id="chart-title">Chart</h2><span class="soft">metres east (x) and north (y) of home${origin ? `; [0, 0] is ${latitudeLongitude([0, 0], origin)}` : "; where that is on earth is not known"}</span><span class="space"></span>
       <button aria-label="Farther" onClick=${() => setView(zoom(view, size, middle, 1 / 1.4))}>−</button>
       <button aria-label="Nearer" onClick=${() => setView(zoom(view, size, middle, 1.4))}>+</button>
       <button disabled=${!own} onClick=${() => setView(null)}>Everything</button></header>
@@ -96,13 +97,13 @@ export function Chart({ store }) {
         <${Grid} view=${view} size=${size} />
         <${Areas} store=${store} at=${at} view=${view} />
         <${Legs} store=${store} at=${at} />
-        <${Places} store=${store} at=${at} taken=${taken} />
+        <${Places} store=${store} at=${at} taken=${taken} view=${view} size=${size} />
         <${Waypoints} store=${store} at=${at} size=${size} taken=${taken} />
         <${Vessel} store=${store} at=${at} />
         ${aim && html`<g class="aim" transform=${`translate(${at(aim).join(" ")})`}><path d="M-22 0H22M0 -22V22" /><circle r="11" /><text x="14" y="-14">${place(aim)}</text></g>`}
         <${Scale} view=${view} size=${size} />
       </svg>
-      <output class="cursor" aria-hidden="true">${cursor ? `x ${number(Math.round(cursor[0] * 10) / 10)}  y ${number(Math.round(cursor[1] * 10) / 10)}` : ""}</output>
+      <output class="cursor" aria-hidden="true">${cursor ? `x ${number(Math.round(cursor[0] * 10) / 10)}  y ${number(Math.round(cursor[1] * 10) / 10)}${origin ? `  ${latitudeLongitude(cursor, origin)}` : ""}` : ""}</output>
     </div>
     ${placing && html`<p class="hint" role="status">Tap the place of ${placing}, or move the cross with the arrow keys (Shift: farther) and press Enter. Escape leaves it. ${aim ? place(aim) : ""}</p>`}
     <${Words} store=${store} track=${track} />
@@ -116,10 +117,11 @@ function told(store, placing, aim) {
 
 /** The same as a table, for whoever cannot see the chart. */
 function Words({ store, track }) {
+  const { origin } = store.plan.document;
   const numbers = Object.fromEntries(store.plan.document.tasks.map((task, index) => [task.id, index + 1]));
   return html`<details class="words"><summary id="chart-words">The track as a table</summary>
-    <table><thead><tr><th scope="col">Step</th><th scope="col">Skill</th><th scope="col">To</th><th scope="col">Way</th><th scope="col">Time</th></tr></thead>
-    <tbody>${track.legs.map((leg, i) => html`<tr key=${i}><td>${numbers[leg.task]}.${leg.step + 1}</td><td>${leg.skill || "from its parameters"}</td><td>${leg.points.length ? place(leg.points[leg.points.length - 1]) : "not known"}</td>
+    <table><thead><tr><th scope="col">Step</th><th scope="col">Skill</th><th scope="col">To</th>${origin && html`<th scope="col">Latitude, longitude</th>`}<th scope="col">Way</th><th scope="col">Time</th></tr></thead>
+    <tbody>${track.legs.map((leg, i) => html`<tr key=${i}><td>${numbers[leg.task]}.${leg.step + 1}</td><td>${leg.skill || "from its parameters"}</td><td>${leg.points.length ? place(leg.points[leg.points.length - 1]) : "not known"}</td>${origin && html`<td>${leg.points.length > 0 && latitudeLongitude(leg.points[leg.points.length - 1], origin)}</td>`}
       <td>${leg.metres > 0 ? metres(leg.metres) : ""}</td><td>${leg.seconds ? seconds(leg.seconds) : ""}</td></tr>`)}</tbody></table>
     ${track.open.length > 0 && html`<p class="soft">Not known: the way of ${track.open.map((id) => `task ${numbers[id]}`).join(", ")}.</p>`}</details>`;
 }

@@ -1,4 +1,4 @@
-// The command as it was given, its spans marked by what they say, and what it leaves open as questions.
+// The command as it was given, its spans marked by what they say, and what they say.
 
 import { html } from "./vendor.js";
 
@@ -30,7 +30,7 @@ export function Command({ store }) {
   const parts = segments(letters.length, ontology.elements, store.lit);
   return html`<section class="panel" aria-labelledby="command-title">
     <h2 id="command-title">Command</h2>
-    <blockquote class="command" tabindex=${letters.length > 600 ? 0 : null}>${parts.map(({ start, end, elements, lit }) => {
+    <blockquote class="command" dir="auto" tabindex=${letters.length > 600 ? 0 : null}>${parts.map(({ start, end, elements, lit }) => {
       const text = letters.slice(start, end).join("");
       if (!elements.length && !lit) return text;
       return html`<span key=${start} class=${[...elements, lit ? "lit" : ""].join(" ")} title=${elements.map((name) => ELEMENTS[name][0]).join(", ")}>${text}</span>`;
@@ -40,6 +40,5 @@ export function Command({ store }) {
       return html`<div key=${element}><dt class=${element} title=${meaning}>${name}</dt>
         <dd>${said.length ? said.map((span) => `“${span.text}”`).join(", ") : html`<em>not said</em>`}</dd></div>`;
     })}</dl>`}
-    ${ontology.questions.length > 0 && html`<div class="questions"><h3>The command leaves open</h3><ul>${ontology.questions.map((question) => html`<li>${question}</li>`)}</ul></div>`}
   </section>`;
 }

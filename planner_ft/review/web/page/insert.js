@@ -26,7 +26,7 @@ export function Insert({ store, at, close }) {
       <label>Task<select value=${title} onChange=${(event) => choose(event.target.value)}>${categories.map((category) => html`<optgroup key=${category} label=${category}>
         ${vocabulary.tasks.filter((task) => task.category === category).map((task) => html`<option key=${task.title} value=${task.title}>${task.title}</option>`)}</optgroup>`)}</select></label>
       <p class="soft">${kind.description}</p>
-      <label>Place in the order<select value=${place} onChange=${(event) => setPlace(event.target.value)}>
+      <label>Before which task<select value=${place} onChange=${(event) => setPlace(event.target.value)}>
         ${document.tasks.map((task, index) => html`<option key=${task.id} value=${index}>${index + 1}, before ${task.title}</option>`)}
         <option value=${document.tasks.length}>${document.tasks.length + 1}, at the end</option></select></label>
       ${kind.parameters.map((parameter) => html`<div key=${`${title} ${parameter.name}`} class="field"><label for=${`new-${parameter.name}`}>${parameter.name}${parameter.required ? ", needed" : ""}</label>

@@ -3,7 +3,7 @@
 import { Chart } from "./chart.js";
 import { Command } from "./command.js";
 import { NewCommand, Progress } from "./compose.js";
-import { Decision } from "./decision.js";
+import { Decision, Naming } from "./decision.js";
 import { Changes } from "./changes.js";
 import { Facts, Provenance } from "./facts.js";
 import { Header, Messages } from "./header.js";
@@ -14,7 +14,7 @@ import { Tasks } from "./tasks.js";
 import { html, render, useEffect, useReducer, useState } from "./vendor.js";
 import { Warnings } from "./warnings.js";
 
-const PARTS = [["warnings", "Warnings"], ["command-title", "Command"], ["tasks-title", "Tasks"], ["chart-title", "Chart"], ["decision", "Decision"]];
+const PARTS = [["overview", "Tasks"], ["warnings", "Warnings"], ["chart-title", "Chart"], ["command-title", "Command"], ["decision", "Decision"]];
 
 function Page() {
   const [, draw] = useReducer((n) => n + 1, 0);
@@ -30,22 +30,22 @@ function Page() {
   if (!plan) return html`<p class="loading" role="status">${store.alert || "The plan is being read."}</p>`;
   const document_ = plan.document;
   return html`
-    <a class="skip" href="#warnings">Skip to the warnings</a>
+    <a class="skip" href="#overview">Skip to the tasks</a><a class="skip" href="#warnings">Skip to the warnings</a>
     <${Header} store=${store} show=${show} />
     <${Messages} store=${store} />
     ${plan.busy && plan.busy.what === "planning" && html`<${Progress} store=${store} />`}
     ${document_
       ? html`<nav class="jump" aria-label="Parts of the page">${PARTS.map(([goal, name]) => html`<a key=${goal} href=${`#${goal}`}>${name}</a>`)}</nav>
           <main class="plan">
+            <${Tasks} key=${`tasks ${plan.path}`} store=${store} show=${show} />
             <div class="column told" key=${plan.path}>
               <${Run} store=${store} />
               <${Warnings} store=${store} />
+              <${Facts} store=${store} />
               <${Command} store=${store} />
               <${Changes} store=${store} />
-              <${Facts} store=${store} />
               <${Provenance} store=${store} />
             </div>
-            <${Tasks} key=${`tasks ${plan.path}`} store=${store} show=${show} />
             <${Chart} key=${`chart ${plan.path}`} store=${store} />
           </main>
           <${Decision} key=${`decision ${plan.path}`} store=${store} />`
@@ -53,6 +53,7 @@ function Page() {
           <p>${plan.planner.available ? "Give a command, and the two agents propose a plan." : plan.planner.why}</p>
           <button class="act" disabled=${!plan.planner.available} onClick=${() => show("command")}>New command</button></main>`}
     ${dialog === "command" && html`<${NewCommand} store=${store} close=${() => show(null)} />`}
+    ${store.naming && html`<${Naming} store=${store} />`}
     ${dialog === "help" && html`<${Help} close=${() => show(null)} />`}
   `;
 }

@@ -1,6 +1,6 @@
-// What is drawn on the chart: grid, area, boundaries, stand-offs, legs, waypoints, targets, home. All sizes are pixels, so marks keep theirs at any zoom.
+// What is drawn on the chart: grid, area, fences, structures, stand-offs, legs, waypoints, places, home and the end. All sizes are pixels, so marks keep theirs at any zoom.
 
-import { metres, number } from "./format.js";
+import { cut, metres, number } from "./format.js";
 import { colour } from "./task.js";
 import { html } from "./vendor.js";
 import { lines, project, round, unproject } from "./view.js";
@@ -30,13 +30,19 @@ export function Scale({ view, size }) {
     <g class="north" aria-hidden="true" transform=${`translate(${size.width - 26} 40)`}><path d="M0 -22L7 6L0 1L-7 6Z" /><text y="20" text-anchor="middle">N</text></g>`;
 }
 
-/** The vehicle's area, the boundaries of steps and the stand-offs of tasks. */
+/** The vehicle's area, fences, structures with the distance that is kept from them, boundaries of steps and stand-offs of tasks. */
 export function Areas({ store, at, view }) {
-  const { document, track } = store.plan;
+  const { document, track, brief } = store.plan;
   const numbers = Object.fromEntries(document.tasks.map((task, index) => [task.id, index]));
   const state = (task) => (store.selected ? (store.selected.task === task ? "chosen" : "faint") : "");
   return html`<g class="areas">
     ${document.vehicle?.area && html`<polygon class="area" points=${path(document.vehicle.area.map(at))}><title>The area of the vehicle</title></polygon>`}
+    ${brief.fences.map((fence, i) => html`<polygon key=${`f${i}`} class=${`fence ${fence.inside ? "inside" : "outside"}`} points=${path(fence.polygon.map(at))}><title>${fence.text}</title></polygon>`)}
+    ${brief.structures.map(({ name, position, standoff }) => {
+      const [x, y] = at(position);
+      return html`<g key=${`s${position}`} class="structure"><circle cx=${x} cy=${y} r=${standoff * view.scale}><title>${name}: ${metres(standoff)} are kept from it</title></circle>
+        <path d=${`M${x - 5} ${y - 5}h10v10h-10Z`} /></g>`;
+    })}
     ${track.boundaries.map((boundary, i) => html`<polygon key=${`b${i}`} class=${`boundary ${colour(numbers[boundary.task])} ${state(boundary.task)}`} points=${path(boundary.polygon.map(at))}><title>Boundary of step ${numbers[boundary.task] + 1}.${boundary.step + 1}</title></polygon>`)}
     ${track.circles.map((circle, i) => {
       const [x, y] = at(circle.center);
@@ -87,17 +93,30 @@ export function Waypoints({ store, at, size, taken }) {
   </g>`;
 }
 
-export function Places({ store, at, taken }) {
+/** Names of places and structures, home, and where the vehicle ends. */
+export function Places({ store, at, taken, view, size }) {
+  const anchor = (x) => (x < 90 ? "start" : x > size.width - 90 ? "end" : "middle");
+  const { track, brief } = store.plan;
+  const places = track.targets.filter((one) => one.position);
+  const named = new Set(places.map((one) => String(one.position)));
+  const { end } = track;
+  const isHome = end && Math.hypot(end[0] - store.plan.vocabulary.home[0], end[1] - store.plan.vocabulary.home[1]) < 1;
   const home = at(store.plan.vocabulary.home);
   taken.claim(home[0] - 10, home[1] - 12, 20, 20);
   taken.claim(home[0] - 20, home[1] + 10, 40, 14);
   return html`<g class="places">
-    <g class="home" transform=${`translate(${home[0]} ${home[1]})`}><path d="M-9 1L0 -9L9 1M-6 -2V8H6V-2" /><text y="22" text-anchor="middle">home</text></g>
-    ${store.plan.track.targets.filter((target) => target.position).map((target) => {
-      const [x, y] = at(target.position);
+    <g class="home" transform=${`translate(${home[0]} ${home[1]})`}><path d="M-9 1L0 -9L9 1M-6 -2V8H6V-2" /><text y="22" text-anchor="middle">${isHome ? "home, end" : "home"}</text></g>
+    ${places.map((one) => {
+      const [x, y] = at(one.position);
       taken.claim(x - 40, y - 30, 80, 40);
-      return html`<g key=${target.name} class="target" transform=${`translate(${x} ${y})`}><path d="M0 -9L9 0L0 9L-9 0Z" /><circle r="1.5" /><text y="-14" text-anchor="middle">${target.name}</text></g>`;
+      return html`<g key=${one.name} class="target" transform=${`translate(${x} ${y})`}><path d="M0 -9L9 0L0 9L-9 0Z" /><circle r="1.5" /><text y="-14" text-anchor=${anchor(x)}>${cut(one.name)}<title>${one.name}</title></text></g>`;
     })}
+    ${brief.structures.filter((one) => !named.has(String(one.position))).map(({ name, position, standoff }) => {
+      const [x, y] = at(position);
+      taken.claim(x - 40, y - 26, 80, 36);
+      return html`<text key=${`n${position}`} class="structure" x=${x} y=${y - 10 - (standoff * view.scale > 24 ? 0 : standoff * view.scale)} text-anchor=${anchor(x)}>${cut(name)}, ${metres(standoff)} off<title>${name}</title></text>`;
+    })}
+    ${end && !isHome && html`<g class="end" transform=${`translate(${at(end).join(" ")})`}><path d="M0 0V-20L14 -15L0 -10" /><text x="4" y="14">end</text></g>`}
   </g>`;
 }
 

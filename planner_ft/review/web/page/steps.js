@@ -42,7 +42,7 @@ function Skill({ store, task, where, skill, label }) {
   const mark = (task.added || []).find((one) => one.step === where.step && one.name === skill.name);
   const drop = () => store.editOrTell({ kind: "drop", task: task.id, step: where.step, name: skill.name }, `${label} left out`);
   return html`<div class="skill"><span class="name" title=${store.plan.vocabulary.skills[skill.name]?.description}>${parts(skill.name)}</span>
-    ${mark && html`<span class=${`source ${mark.kind}`} title=${mark.note || "Added behind the Task Agent"}>${WHOSE[mark.kind]}${mark.parameter ? ` ${mark.parameter}` : ""}</span>`}
+    ${mark && html`<span class=${`source of-${mark.kind}`} title=${mark.note || "Added behind the Task Agent"}>${WHOSE[mark.kind]}${mark.parameter ? ` ${mark.parameter}` : ""}</span>`}
     ${where.role !== "navigation" && html`<button class="plain" aria-label=${`Leave out ${label}`} title="Leave out; undo brings it back" onClick=${drop}>✕</button>`}
     <${Add} short store=${store} label=${label} known=${known} given=${skill.parameters} change=${change} />
     ${Object.entries(skill.parameters).map(([name, value]) => html`<span key=${name} class="parameter"><span class="key">${name}</span>

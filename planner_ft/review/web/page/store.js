@@ -4,6 +4,7 @@ import { Refused, get, listen, post } from "./api.js";
 import { same } from "./format.js";
 import { watched } from "./run.js";
 
+const NAMELESS = "Nothing was changed: a change needs the name of who makes it.";
 const NOTHING_PLANNED = { tasks: null, skills: {} };
 
 export class Store {
@@ -11,6 +12,9 @@ export class Store {
     this.draw = draw;
     this.plan = null; // the answer of /api/state
     this.selected = null; // {task, parameter?, step?}: what list, chart and command show together
+    this.opened = {}; // task id -> whether its details are shown
+    this.reviewer = sessionStorage.getItem("reviewer") || ""; // whose changes and decisions are made here
+    this.naming = null; // {take}: asks for that name before a change
     this.lit = []; // spans of the command that are highlighted
     this.acknowledged = {}; // warning id -> the text that was acknowledged: a warning whose text changes counts as new
     this.conflict = null; // {error, label, repeat}: an own change that met somebody else's
@@ -18,7 +22,7 @@ export class Store {
     this.notice = ""; // a sentence about something that happened, for screen readers too
     this.draft = NOTHING_PLANNED; // what the agents have answered so far while they plan
     this.connected = true;
-    this.placing = null; // the name of the target that is being placed on the chart
+    this.placing = null; // the name of the place that is being put on the chart
     this.watch = null; // the run that is shown: {frames, at (null: the last frame), folder}
     this.sent = 0;
     this.shown = 0;
@@ -65,7 +69,8 @@ export class Store {
     const before = this.plan;
     const other = before && (before.path !== plan.path || before.document?.command !== plan.document?.command);
     const values = { plan };
-    if (other) Object.assign(values, { selected: null, lit: [], acknowledged: {}, placing: null, notice: `Shown now: ${plan.path}.` });
+    if (!before && plan.reviewer && !this.reviewer) values.reviewer = plan.reviewer;
+    if (other) Object.assign(values, { selected: null, opened: {}, lit: [], acknowledged: {}, placing: null, notice: `Shown now: ${plan.path}.` });
     else if (source === "elsewhere" && before && before.revision !== plan.revision && !this.changing) values.notice = "The plan was changed elsewhere; it is shown as it is now.";
     if (!plan.busy) values.draft = NOTHING_PLANNED;
     if (this.placing && !openNames(plan).includes(this.placing)) values.placing = null;
@@ -107,23 +112,44 @@ export class Store {
     if (refused && !this.conflict) this.set({ alert: refused });
   }
 
-  edit(edit, label) {
-    return this.change("/api/edit", { edit }, label, { done: `Saved: ${label}.` });
+  /** Whose change it is; asked once. Null: nobody said. */
+  async whose() {
+    if (!this.reviewer.trim()) {
+      const name = await new Promise((take) => this.set({ naming: { take } }));
+      this.set({ naming: null });
+      if (name) this.rename(name);
+    }
+    return this.reviewer.trim() || null;
   }
 
-  editOrTell(edit, label) {
-    return this.act("/api/edit", { edit }, label, { done: `Saved: ${label}.` });
+  rename(reviewer) {
+    sessionStorage.setItem("reviewer", reviewer);
+    this.set({ reviewer });
+  }
+
+  async edit(edit, label) {
+    const by = await this.whose();
+    if (!by) return NAMELESS;
+    return this.change("/api/edit", { edit, by }, label, { done: `Saved: ${label}.` });
+  }
+
+  async editOrTell(edit, label) {
+    const refused = await this.edit(edit, label);
+    if (refused && !this.conflict) this.set({ alert: refused });
+    return refused;
   }
 
   undo() {
     return this.act("/api/undo", {}, "undo", { repeat: false, done: "The last change was taken back." });
   }
 
-  skillsAgain(task, label) {
-    return this.act("/api/skills", { task }, `new skills for ${label}`, { done: `The Task Agent plans ${label} again.` });
+  async skillsAgain(task, label) {
+    const by = await this.whose();
+    if (!by) return this.set({ alert: NAMELESS });
+    return this.act("/api/skills", { task, by }, `new steps for ${label}`, { done: `The Task Agent plans ${label} again.` });
   }
 
-  approve(name) {
+  approve(name = this.reviewer.trim()) {
     const acknowledged = this.warnings.filter((warning) => this.isAcknowledged(warning)).map((warning) => warning.id);
     return this.change("/api/approve", { name, acknowledged }, "approval", { repeat: false, done: "The plan is approved." });
   }
@@ -132,16 +158,34 @@ export class Store {
     return this.change("/api/reject", { name, reason }, "rejection", { repeat: false, done: "The plan is rejected." });
   }
 
-  async command(text) {
+  /** Has a command planned. Returns null, or what was refused: {error, question?}. */
+  async command(text, sure) {
     this.set({ draft: NOTHING_PLANNED });
-    return this.ask("/api/plan", { command: text }, "The agents are planning.");
+    return this.asked("/api/plan", { command: text, sure }, "The agents are planning.");
+  }
+
+  /** Writes the approved plan for vehicles: {files}, or {error, question?}. */
+  async exportAs(formats, origin, overwrite, sure) {
+    try {
+      const files = await post("/api/export", { revision: this.plan.revision, formats, origin, overwrite, sure });
+      this.set({ notice: `Written: ${files.map((one) => one.file).join(", ")}.` });
+      return { files };
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      return { error: error.message, question: error.body.question };
+    }
   }
 
   open(path) {
     return this.ask("/api/open", { path }, "").then((refused) => refused && this.set({ alert: refused }));
   }
 
+  /** As `asked`; returns null, or the sentence that says why it was refused. */
   async ask(path, body, done) {
+    return (await this.asked(path, body, done))?.error ?? null;
+  }
+
+  async asked(path, body, done) {
     const asked = ++this.sent;
     this.set({ alert: null }); // now: agents may fail before the answer comes
     try {
@@ -152,7 +196,7 @@ export class Store {
       return null;
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      return error.message;
+      return { error: error.message, question: error.body.question };
     }
   }
 
@@ -165,7 +209,7 @@ export class Store {
   }
 
   get warnings() {
-    return this.plan?.document?.warnings || [];
+    return this.plan?.warnings || [];
   }
 
   isAcknowledged(warning) {

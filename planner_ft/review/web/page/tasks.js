@@ -1,7 +1,8 @@
-// The list of tasks in the order of execution: one of them takes the focus, arrows go from one to the next, Alt with arrows moves the task itself.
+// The overview, a line per task in the order of execution: one of them takes the focus, arrows go from one to the next, Alt with arrows moves the task itself.
 
 import { Insert } from "./insert.js";
 import { count } from "./format.js";
+import { Overview } from "./overview.js";
 import { Task } from "./task.js";
 import { html, useEffect, useRef, useState } from "./vendor.js";
 
@@ -9,7 +10,6 @@ export function Tasks({ store }) {
   const { tasks } = store.plan.document;
   const [at, setAt] = useState(0);
   const [inserting, insert] = useState(null);
-  const [opened, open] = useState({});
   const [drag, setDrag] = useState(null);
   const list = useRef();
   const current = Math.min(at, tasks.length - 1);
@@ -40,28 +40,19 @@ export function Tasks({ store }) {
     else return;
     event.preventDefault();
   };
-  const isOpen = (task) => opened[task.id] ?? (task.skill_sequence || []).length <= 4;
-  const all = tasks.every(isOpen);
-  return html`<section class="panel tasks" aria-labelledby="tasks-title">
-    <header><h2 id="tasks-title">Tasks</h2><span class="soft">${categories(store)}</span><span class="space"></span>
-      <button aria-pressed=${all} onClick=${() => open(Object.fromEntries(tasks.map((task) => [task.id, !all])))}>${all ? "Fold steps" : "All steps"}</button>
-      <button id="insert" onClick=${() => insert(chosen >= 0 ? chosen + 1 : tasks.length)}>Insert a task</button></header>
+  const all = tasks.length > 0 && tasks.every((task) => store.opened[task.id]);
+  return html`<section class="panel tasks" id="overview" tabindex="-1" aria-labelledby="tasks-title">
+    <header><h2 id="tasks-title">What will happen: ${count(tasks.length, "task")}</h2>
+      <button aria-pressed=${all} onClick=${() => store.set({ opened: Object.fromEntries(tasks.map((task) => [task.id, !all])) })}>${all ? "Close all" : "Open all"}</button></header>
+    <${Overview} store=${store} />
     ${tasks.length === 0 && html`<p class="soft">The plan has no task. A constraint may say why.</p>`}
+    ${tasks.length > 0 && html`<div class="columns" aria-hidden="true"><span class="what">Task</span><span class="way">Way</span><span class="time">Time</span><span class="used" title="Share of the endurance that is used at the end of the task">Used</span></div>`}
     <ol ref=${list} class=${drag ? "dragging" : ""}>${tasks.map((task, index) => html`<${Task} key=${task.id} store=${store} task=${task} index=${index} last=${index === tasks.length - 1}
-      tab=${index === current ? 0 : -1} keys=${keys} move=${move} remove=${remove} open=${isOpen(task)} toggle=${() => open({ ...opened, [task.id]: !isOpen(task) })}
+      tab=${index === current ? 0 : -1} keys=${keys} move=${move} remove=${remove}
       handle=${dragging(list, task, index, setDrag, move)} over=${drag && drag.to === index && drag.from !== index ? (drag.to > drag.from ? "below" : "above") : ""} />`)}</ol>
+    <p class="insert"><button id="insert" onClick=${() => insert(chosen >= 0 ? chosen + 1 : tasks.length)}>Insert a task</button></p>
     ${inserting !== null && html`<${Insert} store=${store} at=${inserting} close=${() => insert(null)} />`}
   </section>`;
-}
-
-function categories(store) {
-  const { vocabulary, document } = store.plan;
-  const counts = {};
-  for (const task of document.tasks) {
-    const category = vocabulary.tasks.find((one) => one.title === task.title)?.category || "unknown";
-    counts[category] = (counts[category] || 0) + 1;
-  }
-  return `${count(document.tasks.length, "task")}: ${Object.entries(counts).map(([category, n]) => `${n} ${category}`).join(", ")}`;
 }
 
 /** Pointer events of a task's handle: the task under the pointer is where it would go. */

@@ -2,7 +2,7 @@
 (() => {
   try {
     const theme = localStorage.getItem("theme");
-    if (["sunlight", "night"].includes(theme)) document.documentElement.dataset.theme = theme;
+    if (["light", "sunlight", "night"].includes(theme)) document.documentElement.dataset.theme = theme;
   } catch {
     // Storage is switched off: the system's theme it is.
   }

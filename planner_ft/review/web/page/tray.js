@@ -1,4 +1,4 @@
-// Targets beside the chart: those without a place wait here, to be dragged, tapped, moved by keys or typed onto it.
+// Places beside the chart: those that are not known wait here, to be dragged, tapped, moved by keys or typed onto it.
 
 import { Refusal } from "./dialog.js";
 import { place, tasksNamed } from "./format.js";
@@ -10,9 +10,9 @@ export function Tray({ store, drop }) {
   const located = Object.entries(document.located);
   if (!document.open_places.length && !located.length) return null;
   return html`<div class="tray">
-    ${document.open_places.length > 0 && html`<div class="waiting"><h3>Not located: place them on the chart</h3>
+    ${document.open_places.length > 0 && html`<div class="waiting"><h3>Places that are not known: put them on the chart</h3>
       <ul>${document.open_places.map((open) => html`<${Target} key=${open.name} store=${store} name=${open.name} drop=${drop} tasks=${open.tasks.map((number) => document.tasks[number - 1].id)} />`)}</ul></div>`}
-    ${located.length > 0 && html`<div class="placed"><h3>Located</h3>
+    ${located.length > 0 && html`<div class="placed"><h3>Places</h3>
       <ul>${located.map(([name, position]) => html`<${Target} key=${name} store=${store} name=${name} position=${position} drop=${drop} tasks=${[]} />`)}</ul></div>`}
   </div>`;
 }
@@ -30,7 +30,7 @@ function Target({ store, name, position, drop, tasks }) {
   const id = `at-${name}`;
   return html`<li class=${placing ? "chosen" : ""}>
     <button ref=${chip} class="chip" aria-pressed=${placing} title="Drag onto the chart, or press and then choose the place" onClick=${() => store.set({ placing: placing ? null : name, notice: placing ? "" : `Choose the place of ${name} on the chart.` })}>
-      <svg viewBox="-10 -10 20 20" aria-hidden="true"><path d="M0 -9L9 0L0 9L-9 0Z" /></svg>${name}${position && html` <span class="at">${place(position)}</span>`}</button>
+      <svg viewBox="-10 -10 20 20" aria-hidden="true"><path d="M0 -9L9 0L0 9L-9 0Z" /></svg><bdi>${name}</bdi>${position && html` <span class="at">${place(position)}</span>`}</button>
     ${tasks.length > 0 && html`<span class="soft">needed by ${tasksNamed(tasks, store.plan.document.tasks)}</span>`}
     <form onSubmit=${type}><label class="unseen" for=${id}>${`Position of ${name}: x, y in metres`}</label>
       <input id=${id} type="text" class="position" placeholder="x, y" autocomplete="off" value=${text} onInput=${(event) => write(event.target.value)} aria-describedby=${`${id}-refused`} /><span class="unit">m</span>

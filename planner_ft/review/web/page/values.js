@@ -85,8 +85,8 @@ export function Value({ parameter, value, change, store, label, startOpen, close
   };
   if (!open) {
     const unknown = isUnresolved(value, store);
-    return html`<button ref=${button} class=${`value ${unknown ? "unresolved" : ""}`} aria-label=${`${label} ${parameter.name}: ${unknown ? "not located yet" : withUnit(value, parameter.unit)}, change`}
-      onClick=${start}>${unknown ? "not located yet" : withUnit(value, parameter.unit)}</button>`;
+    return html`<button ref=${button} class=${`value ${unknown ? "unresolved" : ""}`} aria-label=${`${label} ${parameter.name}: ${unknown ? "place not known" : withUnit(value, parameter.unit)}, change`}
+      onClick=${start}>${unknown ? "place not known" : withUnit(value, parameter.unit)}</button>`;
   }
   return html`<form class="edit" onSubmit=${submit}>
     <label class="unseen" for=${id}>${`${label} ${parameter.name}`}</label>

@@ -20,6 +20,7 @@ import pytest
 import uvicorn
 
 from planner_ft.document import PlanDocument, apply, build, read_document, write_document
+from planner_ft.exporters import page as exporting
 from planner_ft.planning.planner import SkillsKnown, TasksKnown
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings
@@ -32,7 +33,7 @@ from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
 from tests.browser import headless_chromium
 
-PATIENCE = 300
+PATIENCE = 60
 """Seconds after which what a test waits for does not come."""
 COMMAND = (
     "Find the green buoy, circle it at 12 m with video, survey depths over 20 by 20 m at [60, -30]"
@@ -195,7 +196,9 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
     """Call it with a plan document: a server that shows it. `why` says why there are no agents."""
     running: list[tuple[uvicorn.Server, Session, threading.Thread]] = []
 
-    def serve(document: PlanDocument | None = None, why: str | None = None) -> Review:
+    def serve(
+        document: PlanDocument | None = None, why: str | None = None, reviewer: str = "Ada"
+    ) -> Review:
         agents, path = Agents(), tmp_path / "plan.json"
 
         def load(planning: Planning) -> Agents | None:
@@ -209,7 +212,11 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
         session = Session(
             path,
             WebSettings(
-                folder=tmp_path, planning=PlanSettings(configuration="base"), runner=run_live
+                folder=tmp_path,
+                reviewer=reviewer,
+                planning=PlanSettings(configuration="base"),
+                exporting=exporting,
+                runner=run_live,
             ),
             load_vocabulary(),
         )
@@ -333,7 +340,8 @@ class Page:
 
 @pytest.fixture
 def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[..., Page]]:
-    """Opens the page on a plan. Afterwards no script may have failed and no request may have left
+    """Opens the page on a plan, for a reviewer whose name is known and with the details of every
+    task shown (unless `closed`). Afterwards no script may have failed and no request may have left
     the origin.
     """
     pages: list[Page] = []
@@ -345,8 +353,10 @@ def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[...
         *,
         dark: bool = False,
         why: str | None = None,
+        reviewer: str = "Ada",
+        closed: bool = False,
     ) -> Page:
-        review = start(document, why)
+        review = start(document, why, reviewer)
         screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
         chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
         features = [
@@ -358,6 +368,8 @@ def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[...
         page = Page(chromium, review)
         page.one("main")
         pages.append(page)
+        if not closed:
+            page.press("Open all")
         return page
 
     for kind in ("browser", "performance"):
@@ -378,4 +390,6 @@ def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[...
     own = (*(page.review.base for page in pages), "data:", "about:")
     assert [address for address in addresses if not address.startswith(own)] == []
     assert not pages or chromium.execute_script("return window.attacked") is None
+    if pages:
+        chromium.execute_script("sessionStorage.clear()")
     chromium.get("about:blank")

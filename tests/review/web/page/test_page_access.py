@@ -45,19 +45,24 @@ def test_a_whole_review_by_keyboard(opened: Opened) -> None:
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.keys import Keys
 
-    page = opened()
+    page = opened(closed=True, reviewer="")
+    page.keys(Keys.TAB)
+    assert page.focused() == "Skip to the tasks"
     page.keys(Keys.TAB)
     assert page.focused() == "Skip to the warnings"
     page.keys(Keys.ENTER)
-    tab_to(page, "Place green buoy on the chart", Keys.TAB)
+    tab_to(page, "Put green buoy on the chart", Keys.TAB)
     page.keys(Keys.ENTER)
     page.until("return document.querySelector('.aim') !== null")
     page.keys(Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ENTER)
+    page.says("dialog h2", "Who changes this plan?")
+    page.keys("Ada", Keys.ENTER)
     page.one(".placed")
     page.keys("t")
     page.until("return document.activeElement.classList.contains('head')")
     page.keys(Keys.ARROW_DOWN, Keys.ARROW_DOWN)
     assert "PerformOrbit" in page.focused()
+    page.keys(Keys.ENTER)
     tab_to(page, "radius: 12", Keys.TAB)
     page.keys(Keys.ENTER)
     page.until("return document.activeElement.matches('.edit input')")
@@ -79,8 +84,11 @@ def test_a_whole_review_by_keyboard(opened: Opened) -> None:
     for _warning in page.all(".warnings input"):
         page.keys("w", Keys.SPACE)
     page.says("#warnings-title", "All warnings acknowledged")
-    page.keys("d")
-    page.keys("Ada", Keys.ENTER)
+    page.keys("d", Keys.ENTER)
+    page.until("return document.activeElement.classList.contains('summary')")
+    tab_to(page, "Approve as Ada", Keys.TAB)
+    page.keys(Keys.ENTER)
+    page.until("return document.activeElement.textContent === 'Export …'")
     page.says(".bar .state", "Approved")
     assert page.review.document()["tasks"][2]["parameters"]["radius"] == 15
     assert page.review.decisions()[-1]["event"] == "approved"

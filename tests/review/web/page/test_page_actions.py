@@ -26,11 +26,9 @@ def open_value(page: Page, task: str, name: str) -> None:
     page.one(f'#task-{task} [data-parameter="{name}"] .value').click()
 
 
-def test_warnings_come_first_and_lead_to_what_they_are_about(opened: Opened) -> None:
-    page = opened()
-    assert page.run("return document.querySelector('main h2').textContent").endswith(
-        "to acknowledge"
-    )
+def test_warnings_lead_to_what_they_are_about(opened: Opened) -> None:
+    page = opened(closed=True)
+    page.says("#warnings-title", "to acknowledge")
     page.says(".warnings li", "green buoy")
     page.press("Show task 2, target_position", ".warnings")
     assert "target_position" in page.focused()
@@ -39,7 +37,7 @@ def test_warnings_come_first_and_lead_to_what_they_are_about(opened: Opened) -> 
 
 
 def test_approving_needs_every_warning_and_a_name_and_says_which_is_lacking(opened: Opened) -> None:
-    page = opened()
+    page = opened(reviewer="")
     page.says(".approve", "lacking")
     assert page.one(".approve").get_attribute("aria-disabled") == "true"
     page.one(".approve").click()
@@ -50,8 +48,11 @@ def test_approving_needs_every_warning_and_a_name_and_says_which_is_lacking(open
     page.says(".approve", "Approve: your name lacking")
     page.one(".approve").click()
     page.keys("Ada Reviewer")
-    page.says(".approve", "Approve this plan")
+    page.until("return document.querySelector('.approve').textContent === 'Approve …'")
     page.one(".approve").click()
+    page.says("dialog .summary", "Not checked by any program")
+    assert not page.review.session.log.exists()
+    page.press("Approve as Ada Reviewer", "dialog")
     page.says(".bar .state", "Approved")
     page.says(".bar .state", "Ada Reviewer")
     record = page.review.decisions()[-1]
@@ -68,13 +69,13 @@ def test_a_question_is_answered_with_one_button(opened: Opened) -> None:
     mission = replace(asked.mission, judged=Judgement("", held))
     tasks = tuple(replace(task, answer=None) for task in asked.tasks)
     page = opened(build(replace(asked, mission=mission, tasks=tasks, doubts=doubts), USV))
-    page.says(".sureness", "How sure the agents were: unsure")
-    page.says(".sureness", "Task 3, PerformOrbit: radius 12 m or 15 m?")
+    page.says(".overview", "unsure")
+    page.says(".asked", "Task 3, PerformOrbit: radius 12 m or 15 m?")
     assert page.text('#task-t3 [data-parameter="radius"] .level') == "unsure"
     assert page.text("#task-t3 .head .level") == "unsure"
-    page.press("Task 3, PerformOrbit: radius 12 m or 15 m? 15", ".sureness")
+    page.press("Task 3, PerformOrbit: radius 12 m or 15 m? 15", ".asked")
     page.says('#task-t3 [data-parameter="radius"]', "15")
-    assert not page.all(".sureness li")
+    assert not page.all(".asked")
     assert page.review.document()["tasks"][2]["parameters"]["radius"] == 15
 
 
@@ -93,7 +94,7 @@ def test_a_warning_that_changes_is_to_be_acknowledged_again(opened: Opened) -> N
 
 
 def test_rejecting_asks_for_the_reason(opened: Opened) -> None:
-    page = opened()
+    page = opened(reviewer="")
     page.press("Reject …")
     page.keys("The survey lies in the fairway.")
     page.press("Reject the plan")
@@ -144,7 +145,7 @@ def test_spans_of_the_command_are_marked_by_colour_and_by_line(opened: Opened) -
         ["come home", "dashed"],
     ]
     page.says(".legend div", "“the green buoy”")
-    page.says(".questions li", "Which camera is to record?")
+    page.says(".facts li", "Which camera is to record?")
 
 
 def test_a_value_lights_its_words_in_the_command_also_after_an_emoji(opened: Opened) -> None:
@@ -159,7 +160,7 @@ def test_a_value_that_only_the_model_chose_stands_apart(opened: Opened) -> None:
     page = opened()
     assert page.text('#task-t3 [data-parameter="speed"] .source').startswith("model's own")
     assert (
-        page.run("return getComputedStyle(document.querySelector('.source.model')).borderStyle")
+        page.run("return getComputedStyle(document.querySelector('.source.of-model')).borderStyle")
         == "dashed"
     )
 
@@ -203,7 +204,7 @@ def test_a_value_of_a_skill_is_edited(opened: Opened) -> None:
     page = opened()
     page.one("#task-t5 .skill .value").click()
     page.keys("3", "\n")
-    page.says(".changes li", "5 Transit, skills")
+    page.says(".changes li", "5 Transit, steps")
     assert page.review.document()["tasks"][4]["skill_sequence"][0]["navigation_skill"][
         "parameters"
     ] == {"x": 3, "y": 0}
@@ -271,7 +272,7 @@ def test_a_task_is_inserted_where_it_is_asked_for(opened: Opened) -> None:
 
 def test_an_edited_prompt_asks_for_new_steps_of_that_task_alone(opened: Opened) -> None:
     page = opened()
-    page.press("Change the prompt of task 5, Transit")
+    page.press("Change what the Task Agent is told of task 5, Transit")
     page.write("#task-t5 textarea", "Return home slowly.")
     page.press("Save", "#task-t5")
     page.says("#task-t5 .waits", "before this task was changed")

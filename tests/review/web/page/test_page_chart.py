@@ -63,7 +63,7 @@ def test_the_chart_draws_everything_and_follows_the_selection(opened: Opened) ->
     page.says(".places .target text", "green buoy")
     assert page.text(".circle text") == "r 12 m"
     assert len(page.all(".boundary")) == 1
-    assert page.text(".home") == "home"
+    assert page.text(".home") == "home, end"
     assert len(page.all(".leg")) >= 8
     page.one("#task-t4 .head").send_keys(Keys.ENTER)
     page.until("return document.querySelector('.leg.chosen') !== null")
