@@ -104,21 +104,15 @@ def training_memory(
     return MemoryEstimate(weights, *used, _workspace(dimensions, quantization))
 
 
-def inference_memory(
-    dimensions: Dimensions,
-    *,
-    quantization: Quantization = "nf4",
-    rank: int = RANK,
-    tokens: int = INFER_TOKENS,
-    batch: int = 1,
-) -> MemoryEstimate:
-    """Memory to generate with one adapter; `tokens` count prompt and answer of a sequence."""
+def inference_memory(dimensions: Dimensions, rank: int = RANK, batch: int = 1) -> MemoryEstimate:
+    """Memory to generate with one adapter on 4-bit weights, INFER_TOKENS a sequence."""
+    tokens = INFER_TOKENS
     widest = 4 * (dimensions.intermediate + dimensions.hidden)
     keys = dimensions.layers * dimensions.kv_heads * dimensions.head_dim
-    weights = stored_weights(dimensions, quantization)
+    weights = stored_weights(dimensions)
     adapter, logits = 4 * adapter_parameters(dimensions, rank), 4 * batch * dimensions.vocabulary
     used = (adapter, 0, batch * tokens * widest, 4 * batch * tokens * keys, logits)
-    return MemoryEstimate(weights, *used, _workspace(dimensions, quantization))
+    return MemoryEstimate(weights, *used, _workspace(dimensions, "nf4"))
 
 
 def _workspace(dimensions: Dimensions, quantization: Quantization) -> int:

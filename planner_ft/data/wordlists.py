@@ -3,8 +3,8 @@
 An entry is a text such as "the {colour} ladder", "camera {n}" or "weld {code}"; a list that is a
 table gives each entry a weight. An entry that begins with "the " is said with its article and
 stored without it; what stands before a bar is said and not stored ("sensor |{code}"), nor are the
-quotation marks behind it. Every vehicle has the lists of wordlists.toml: {n} a number, {code} "KX-07",
-{low} a small letter, {letter} a capital, {digit} a digit, {word} and {name} what no dictionary has,
+quotation marks behind it. Every vehicle has the lists of wordlists.toml: {n} a number, {code}
+"KX-07", {low} a small letter, {letter} a capital, {digit} a digit, {word} and {name} what no dictionary has,
 {tag} a file tag, {any_thing} a thing's name from things.txt.
 """
 
@@ -84,10 +84,7 @@ class WordLists:
         if name not in self.lists:
             return MADE_UP[name](rng)
         entries, weights = self.lists[name]
-        if weights is None:
-            text = entries[int(rng.random() * len(entries))]
-        else:
-            text = rng.choices(entries, cum_weights=weights)[0]
+        text = rng.choices(entries, cum_weights=weights)[0] if weights else pick(entries, rng)
         return text if "{" not in text else self.fill(text, rng)
 
     def fill(self, text: str, rng: Random) -> str:
@@ -116,9 +113,7 @@ class WordLists:
         return Value(stored, entry, stored)
 
     def quoted(self, name: str, rng: Random) -> Value:
-        """A text to be written down word for word: mostly in quotation marks, a single word also
-        without.
-        """
+        """A text to be written down word for word, mostly in quotation marks."""
         stored = self.noun(name, rng).value
         mark = pick(("'", '"', "'", '"', ""), rng) or ("" if " " not in stored else '"')
         return Value(stored, f"{mark}{stored}{mark}")

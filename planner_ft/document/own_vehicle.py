@@ -63,7 +63,7 @@ class Part:
 
 
 def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
-    """Write the commented files of a vehicle, all or none, into `out`, by default a new folder NAME;
+    """Write the commented files of a vehicle, all or none, into `out`, else a new folder NAME;
     returns them. Raises PlannerError for a name or a folder that cannot be taken.
     """
     if not NAME.fullmatch(name) or name in bundled_vocabularies():

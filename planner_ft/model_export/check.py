@@ -49,9 +49,8 @@ def check_records(
                 raise PlannerError(f"{data}: record {number} has no {missing[0]}; {hint}")
         return records
     if level == "mission":
-        return read_jsonl((curated_folder(vocabulary) or find_source()) / "validation.jsonl")[
-            :count
-        ]
+        folder = curated_folder(vocabulary) or find_source()
+        return read_jsonl(folder / "validation.jsonl")[:count]
     from planner_ft.data.task.sampler import sample_tasks
 
     return list(itertools.islice(sample_tasks(vocabulary, SEED, count, "validation"), count))

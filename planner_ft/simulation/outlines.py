@@ -1,7 +1,7 @@
-"""Outlines of structures on request: `--outline NAME=SHAPE`, for runs that must see more than a pile.
+"""Outlines of structures on request: `--outline NAME=SHAPE`, for runs that see more than a pile.
 
-A shape is a radius ("3"), a box of so many metres east and north ("16x4"), or an L or T in such a box
-("L8x8", "T10x8"). A plan knows structures as points; an outline is part of the simulated world.
+A shape is a radius ("3"), a box of so many metres east and north ("16x4"), or an L or T in such a
+box ("L8x8", "T10x8"). A plan knows structures as points; an outline is part of the simulated world.
 """
 
 from __future__ import annotations

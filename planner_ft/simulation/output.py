@@ -67,7 +67,7 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     for name, (heading, *_form) in COLUMNS.items():
         cells = [cell(name, Estimate(number(one, name))) for one in quoted]
         rows.append(row(heading, cell(name, measured[name]), *cells))
-    return Table("", names, rows, caption=CAPTION)
+    return Table("", names, rows, name="simulation", caption=CAPTION)
 
 
 def outcome_lines(results: list[RunResult]) -> list[str]:

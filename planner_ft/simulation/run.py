@@ -181,7 +181,6 @@ class _Prepared:
         charted, objects = self.staging.structures, self._objects()
         true = {place: objects[name] for name, place in self._named().items()}
         placed = [replace(one, position=true.get(one.position, one.position)) for one in charted]
-        self.staging.check_starts(starts, placed)
         self.world = World(
             self.vessel,
             vocabulary.home,
@@ -194,6 +193,9 @@ class _Prepared:
             settings.runs,
             settings.seed,
         )
+        for name, corners in settings.outlines.items():
+            self.world.add_outline(name, corners)
+        self.staging.check_starts(starts, self.world)
         count = settings.runs
         self.simulator = build_simulator(settings.simulator, self.vessel, count)
         poses = np.zeros((count, 4))

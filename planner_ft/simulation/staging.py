@@ -16,7 +16,7 @@ from planner_ft.simulation.sensing import MEASURES
 from planner_ft.simulation.skill import Job, implementation_of, settings_of
 from planner_ft.simulation.slots import LEARNT, WAYPOINTS, Slots
 from planner_ft.simulation.vessel import Vessel
-from planner_ft.simulation.world import PILE, Fence
+from planner_ft.simulation.world import Fence, World
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import SIMULATION
 from planner_ft.vocabulary.motion import Motion
@@ -108,7 +108,7 @@ class Staging:
         known = {task["id"]: self.vocabulary.task[task["title"]] for task in self.document["tasks"]}
         return frozenset(name for name, one in known.items() if one.docks or one.pattern == "pass")
 
-    def check_starts(self, starts: Sequence[Point], placed: Sequence[Structure]) -> None:
+    def check_starts(self, starts: Sequence[Point], world: World) -> None:
         """Raise PlannerError for a start in a structure, and for one or a home that a fence
         excludes.
         """
@@ -119,12 +119,12 @@ class Staging:
             if polygon.outside_by(np.array([home]))[0] > 0:
                 problem = "a fence of the plan excludes home, where runs that fail return to"
                 raise PlannerError(f"{problem}; plan with another fence")
-        for start in starts:
+        for start, away in zip(starts, world.nearest(np.array(starts, float)), strict=True):
             shown = f"[{start[0]:g}, {start[1]:g}]"
-            for one in placed:
-                if math.dist(start, one.position) < PILE + self.vessel.radius:
-                    problem = f"the vehicle would start in {one.name}, at {shown}"
-                    raise PlannerError(f"{problem}; give --start x,y or another place of it")
+            if away < self.vessel.radius:
+                near = min(world.structures, key=lambda one: math.dist(start, one.position))
+                problem = f"the vehicle would start in {near.name}, at {shown}"
+                raise PlannerError(f"{problem}; give --start x,y or another place of it")
             for polygon in self.fences:
                 if polygon.outside_by(np.array([start]))[0] > 0:
                     problem = f"a fence of the plan excludes the start {shown}"

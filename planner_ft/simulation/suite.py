@@ -225,7 +225,7 @@ def suite_table(suite: Suite, ran: Ran, names: Sequence[str] = tuple(COLUMNS)) -
         "Means over runs with 95 % intervals. Published figures are of another simulator, other"
         " structures and distances, so that steps, seconds and thrust are no comparison."
     )
-    return Table("mission", columns, rows, title=suite.raw["title"], caption=caption)
+    return Table("mission", columns, rows, 0, "missions", suite.raw["title"], caption)
 
 
 def _rows(suite: Suite, mission: Mission, ran: Ran, names: Sequence[str]) -> Iterator[TableRow]:

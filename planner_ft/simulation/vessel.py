@@ -25,7 +25,8 @@ class Vessel:
     """Metres, kg, m/s, rad/s, N; `drag` of surge, sway and yaw in 1/s; `thrust` of one thruster.
 
     `cruise` is the profile's speed, `endurance` (s) how long the battery lasts at it, `hotel` (N)
-    what the electronics take as if it were thrust, `steering` (N) what turns take on average. `rays` is 0 without a LiDAR.
+    what the electronics take as if it were thrust, `steering` (N) what turns take on average;
+    `rays` is 0 without a LiDAR.
     """
 
     drive: Literal["differential", "free"]

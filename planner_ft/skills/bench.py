@@ -137,7 +137,7 @@ def class_table(played: Played, seed: int) -> Table:
             rates = [figure(_number(line[name]), decimals=0) for name in _RATES]
             errors = figure(_number(line["error"])), figure(_number(line["steps"]), decimals=0)
             rows.append(row(line["class"], *rates, *errors, kind="published"))
-    return Table("", COLUMNS, rows, title="By shape class.", caption=CAPTION)
+    return Table("", COLUMNS, rows, name="classes", title="By shape class.", caption=CAPTION)
 
 
 def condition_table(played: Played, seed: int) -> Table:
@@ -147,8 +147,8 @@ def condition_table(played: Played, seed: int) -> Table:
         rows.append(row(condition, kind="section"))
         for name, by_condition in played.items():
             rows.append(_row(name, by_condition[condition], seed))
-    caption = "Over all classes; every condition but the first was never trained on."
-    return Table("", COLUMNS, rows, title="By condition.", caption=caption)
+    caption = "Over all classes; every condition but the first lies beyond what was trained on."
+    return Table("", COLUMNS, rows, name="conditions", title="By condition.", caption=caption)
 
 
 _RATES = ("success", "collision", "lost")

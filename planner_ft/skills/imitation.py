@@ -41,7 +41,7 @@ class ImitationSettings:
     """
 
     seed: int = 0
-    iterations: int = 240
+    iterations: int = 200
     environments: int = 256
     options: int = 12
     updates: int = 40

@@ -62,7 +62,7 @@ def tracking_table(request: SkillBench, policies: Sequence[Policy], report: Repo
     report(f"{skill} bench", total, total)
     shown = [figure(None) if one is None else one for one in PUBLISHED[skill]]
     rows += [row("published", kind="section"), row("", *shown, kind="published")]
-    return Table("", COLUMNS[skill], rows, caption=CAPTION)
+    return Table("", COLUMNS[skill], rows, name=skill, caption=CAPTION)
 
 
 Floats = NDArray[np.float64]

@@ -30,9 +30,9 @@ class Batch:
     that padding on the right reaches no token before it. Where samples share a row, `positions`
     (the shape of `input_ids`) begins at zero with each of them, and models let none look at
     another; only the first `shared` tokens of a row, which they have in common, are seen by all,
-    and positions go on there with each. `rows` and `columns` say where the model predicts completion tokens and `targets`
-    which: three vectors of one length, over all samples. So the output layer runs there alone.
-    `tokens` counts the samples' tokens without padding.
+    and positions go on there with each. `rows` and `columns` say where the model predicts
+    completion tokens and `targets` which: three vectors of one length, over all samples. So the
+    output layer runs there alone. `tokens` counts the samples' tokens without padding.
     """
 
     ids: tuple[str, ...]

@@ -26,6 +26,7 @@ from planner_ft.benchmark.suite.units import Process
 from planner_ft.cli.bench import bench
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_toml
 
 FIRST, SECOND = "Llama-3.2-1B", "Qwen2.5-3B"
 RIGHT = json.dumps(
@@ -397,7 +398,8 @@ def test_a_bad_suite_file_is_one_sentence(
 
 def test_the_shipped_suites_can_be_read() -> None:
     root = Path(__file__).parents[2] / "eval" / "suites"
-    suites = {path.stem: load_suite(path) for path in root.glob("*.toml")}
+    ours = [path for path in root.glob("*.toml") if "candidates" in read_toml(path)]
+    suites = {path.stem: load_suite(path) for path in ours}
     assert set(suites) == {"paper", "embedded", "ci"}
     assert len(suites["paper"].candidates) == 7
     for part in (part for suite in suites.values() for part in suite.parts):

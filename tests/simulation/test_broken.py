@@ -93,6 +93,16 @@ CASES: dict[str, tuple[Make, list[str], str]] = {
         [],
         "would start in buoy, at [0, 0]",
     ),
+    "outline on the start": (
+        plan(chart={"buoy": (8.0, 0.0)}),
+        ["--outline", "buoy=16x4"],
+        "would start in buoy, at [0, 0]",
+    ),
+    "outline of nothing": (
+        plan(chart={"buoy": (8.0, 0.0)}),
+        ["--outline", "dock=16x4"],
+        "--outline dock: is no structure of the plan; there is buoy",
+    ),
     "structure on another start": (
         plan(chart={"buoy": (20.0, 0.0)}),
         ["--start", "20,0.2"],

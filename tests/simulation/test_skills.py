@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.simulation.faults import read_faults
+from planner_ft.simulation.outlines import read_outlines
 from tests.documents import DRONE, USV, step, task
 
 from .conftest import Run
@@ -117,6 +118,15 @@ def test_a_way_from_afar_goes_round_what_stands_in_it(run: Run) -> None:
     done = run([transit(-10, 0)], how={"chart": {"wreck buoy": (20.0, 0.0)}}, starts=((45.0, 0.0),))
     assert all(one.success and (one.clearance or 0) > 6 for one in done.results)
     assert [one.clearance_violations for one in done.results] == [0, 0]
+
+
+def test_an_outline_is_hit_where_a_pile_is_passed(run: Run) -> None:
+    chart, outlines = {"chart": {"wreck buoy": (20.0, 60.0)}}, read_outlines(["wreck buoy=8x30"])
+    there = {"wreck buoy": (20.0, 12.0)}
+    passed = run([transit(40, 0)], how=chart, locations=there)
+    hit = run([transit(40, 0)], how=chart, locations=there, outlines=outlines)
+    assert all(one.success and 10 < (one.clearance or 0) < 12 for one in passed.results)
+    assert {one.outcome for one in hit.results} == {"collision"}
 
 
 def test_a_boundary_holds_the_vehicle_until_the_step_fails(run: Run) -> None:

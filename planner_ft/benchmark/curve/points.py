@@ -77,8 +77,8 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
     if better := [one for one in final if one.verdict == "better"]:
         return (
             f"Still rising: {step} brought {'; '.join(map(_gain, better))}. {last - before} more"
-            " are worth writing: they bring about as much if the curve goes on as it is, and less if"
-            " it flattens."
+            " are worth writing: they bring about as much if the curve goes on as it is, less if it"
+            " flattens."
         )
     if any(one.verdict == "worse" for one in final):
         return f"Falling: {step} made plans worse. Check the labels before writing more {what}."

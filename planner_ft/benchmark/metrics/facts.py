@@ -22,18 +22,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from planner_ft import facts
 from planner_ft.benchmark.metrics.alignment import Alignment, Entry
 from planner_ft.benchmark.metrics.values import known_parameters, values_agree
-from planner_ft.facts import (
-    SCORING,
-    WAYPOINT,
-    Input,
-    is_number,
-    is_place,
-    missing_words,
-    normalised,
-    read,
-)
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -68,15 +59,15 @@ class Reached:
 
 
 def groundedness(
-    level: Level, entries: Sequence[Entry], source: Input, vocabulary: Vocabulary
+    level: Level, entries: Sequence[Entry], source: facts.Input, vocabulary: Vocabulary
 ) -> Groundedness:
     """Judge the values of a plan's entries; where the input cannot be read with certainty, none."""
     judged, ungrounded, before = 0, [], list[tuple[float, float]]()
     for given in given_values(level, entries, vocabulary):
-        verdict = source.evidence(given.value, given.parameter, SCORING, before).given
+        verdict = source.evidence(given.value, given.parameter, facts.SCORING, before).given
         judged += verdict is not None
         ungrounded += [given] if verdict is False else []
-        if given.parameter is WAYPOINT:
+        if given.parameter is facts.WAYPOINT:
             before.append((given.value[0], given.value[1]))
     return Groundedness(judged, tuple(ungrounded))
 
@@ -86,9 +77,11 @@ def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary)
     for index, entry in enumerate(entries):
         skill = vocabulary.skill.get(entry.name) if level == "task" else None
         pair = [item.name for item in skill.coordinates] if skill else []
-        together = len(pair) == 2 and all(is_number(entry.parameters.get(name)) for name in pair)
+        together = len(pair) == 2 and all(
+            facts.is_number(entry.parameters.get(name)) for name in pair
+        )
         if together:
-            yield Given(index, WAYPOINT, [entry.parameters[name] for name in pair])
+            yield Given(index, facts.WAYPOINT, [entry.parameters[name] for name in pair])
         known = known_parameters(level, entry.name, vocabulary)
         for name, value in entry.parameters.items():
             if not (together and name in pair):
@@ -97,10 +90,10 @@ def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary)
 
 def _by_form(name: str, value: Any) -> Parameter:
     """A parameter of the type that a value has."""
-    if is_number(value):
+    if facts.is_number(value):
         return Parameter(name, "number")
     if isinstance(value, list):
-        return Parameter(name, "position" if is_place(value) else "texts")
+        return Parameter(name, "position" if facts.is_place(value) else "texts")
     return Parameter(name, "text")
 
 
@@ -114,7 +107,7 @@ def _slot_kind(parameter: Parameter) -> str:
 
 
 def slot_propagation(
-    level: Level, plan: Any, alignment: Alignment, source: Input, vocabulary: Vocabulary
+    level: Level, plan: Any, alignment: Alignment, source: facts.Input, vocabulary: Vocabulary
 ) -> Reached:
     """Follow every slot of the expected plan into the answer; without a partner it is lost."""
     partner = dict(alignment.pairs)
@@ -125,7 +118,7 @@ def slot_propagation(
     reached = Reached(Counter(), Counter(), Counter())
     for slot in given_values(level, alignment.expected, vocabulary):
         # Home, the unresolved location and derived waypoints are no slots.
-        if not source.stated(slot.value, slot.parameter, SCORING).given:
+        if not source.stated(slot.value, slot.parameter, facts.SCORING).given:
             continue
         kind = _slot_kind(slot.parameter)
         reached.stated[kind] += 1
@@ -144,6 +137,8 @@ def slot_propagation(
 def _says(prompt: str, slot: Given) -> bool:
     """Whether a task prompt states a value: in any unit and wording, of a text every word."""
     if _slot_kind(slot.parameter) != "names":
-        return read(prompt).evidence(slot.value, slot.parameter, SCORING).given is True
+        return facts.read(prompt).evidence(slot.value, slot.parameter, facts.SCORING).given is True
     wanted = slot.value if isinstance(slot.value, list) else [slot.value]
-    return not any(missing_words(prompt, normalised(str(one)), misspelt=False) for one in wanted)
+    return not any(
+        facts.missing_words(prompt, facts.normalised(str(one)), misspelt=False) for one in wanted
+    )

@@ -124,37 +124,34 @@ class ChatClient:
         succeed, and then the first exception is raised. The threads are daemons, so that a program
         can end while a server hangs.
         """
-        waiting: queue.SimpleQueue[tuple[int, Item]] = queue.SimpleQueue()
-        done: queue.SimpleQueue[tuple[int, Any, BaseException | None] | None] = queue.SimpleQueue()
-        for pair in enumerate(items):
-            waiting.put(pair)
+        done: queue.SimpleQueue[tuple[int, Result] | BaseException | None] = queue.SimpleQueue()
+        waiting, turn = iter(enumerate(items)), threading.Lock()
 
         def work() -> None:
-            while not self.stopped.is_set():
-                try:
-                    index, item = waiting.get_nowait()
-                except queue.Empty:
-                    break
-                try:
-                    done.put((index, function(item), None))
-                except BaseException as error:
-                    self.stop()
-                    done.put((index, None, error))
+            try:
+                while not self.stopped.is_set():
+                    with turn:
+                        pair = next(waiting, None)
+                    if pair is None:
+                        break
+                    done.put((pair[0], function(pair[1])))
+            except BaseException as error:
+                self.stop()
+                done.put(error)
             done.put(None)
 
-        running = min(self.settings.concurrency, len(items))
+        running, failures = min(self.settings.concurrency, len(items)), list[BaseException]()
         for _ in range(running):
             threading.Thread(target=work, daemon=True).start()
-        failures = []
         try:
             while running:
                 found = done.get()
                 if found is None:
                     running -= 1
-                elif found[2] is None:
-                    yield found[0], found[1]
+                elif isinstance(found, BaseException):
+                    failures.append(found)
                 else:
-                    failures.append(found[2])
+                    yield found
         except BaseException:
             self.stop()
             raise
@@ -194,7 +191,7 @@ class ChatClient:
                 if response.status_code != 200:
                     raise self._refusal(response, b"".join(chunks))
                 events = response.headers.get("content-type", "").startswith("text/event-stream")
-                return _read_events(chunks, started) if events else _read_whole(chunks, started)
+                return _read(chunks, started, streamed=events)
         except httpx2.InvalidURL as error:
             raise PlannerError(f"--endpoint {root}: no http URL ({error}); {ROOT}") from None
         except httpx2.TimeoutException:
@@ -251,40 +248,35 @@ def _within(chunks: Iterable[bytes], deadline: float) -> Iterator[bytes]:
         yield chunk
 
 
-def _read_whole(chunks: Iterable[bytes], started: float) -> Reply:
-    """A reply that comes as one JSON object. Raises Passing."""
-    body = b"".join(chunks)
-    value = _json_object(body)
-    choice = _choice(value)
-    message = choice.get("message")
-    if not isinstance(message, dict):
-        raise Passing(f"answered without a message: {_excerpt(body)}")
-    seconds, reason = time.perf_counter() - started, str(choice.get("finish_reason") or "stop")
-    if isinstance(message.get("content"), str):
-        text = _text(message)
-        choices = known(_choices(choice.get("logprobs")), text)
-        return Reply(text, seconds, reason, *_usage(value), choices=choices)
-    ended, problem = reason if reason == "length" else "error", "the server sent no content"
-    return Reply("", seconds, ended, *_usage(value), problem=problem)
-
-
-def _read_events(chunks: Iterable[bytes], started: float) -> Reply:
-    """A reply that comes as server-sent events. Raises Passing when it ends without saying so."""
-    text, reason, first = "", None, None
+def _read(chunks: Iterable[bytes], started: float, *, streamed: bool) -> Reply:
+    """A reply, one JSON object or server-sent events that say when they end. Raises Passing."""
+    text, reason, first, problem, choices = "", None, None, None, None
     usage: tuple[int | None, int | None] = (None, None)
-    for event in _events(chunks):
-        counted = _usage(event)
+    for value in _events(chunks) if streamed else [_json_object(b"".join(chunks))]:
+        counted = _usage(value)
         usage = usage if counted[0] is None else counted
-        if not event.get("choices"):  # the last event of a stream holds the usage alone
+        if streamed and not value.get("choices"):  # the last event holds the usage alone
             continue
-        choice = _choice(event)
-        piece = _text(choice.get("delta") or {})
-        if piece and first is None:
-            first = time.perf_counter() - started
-        text, reason = text + piece, choice.get("finish_reason") or reason
+        choice = _choice(value)
+        message = choice.get("delta") or {} if streamed else choice.get("message")
+        if not isinstance(message, dict):
+            raise Passing(f"answered without a message: {_excerpt(json.dumps(value))}")
+        piece = message.get("content")  # models that refuse or think first have none for a while
+        reason = choice.get("finish_reason") or reason
+        if isinstance(piece, str):
+            first = first or (time.perf_counter() - started if streamed and piece else None)
+            text += piece
+        if not streamed and isinstance(piece, str):
+            reason, choices = reason or "stop", known(_choices(choice.get("logprobs")), text)
+        elif not streamed:
+            problem = "the server sent no content"
+            reason = reason if reason == "length" else "error"
     if reason is None:
         raise Passing("ended a stream in the middle of an answer")
-    return Reply(text, time.perf_counter() - started, str(reason), *usage, first)
+    seconds = time.perf_counter() - started
+    return Reply(
+        text, seconds, str(reason), *usage, first_token_s=first, problem=problem, choices=choices
+    )
 
 
 def _events(chunks: Iterable[bytes]) -> Iterator[dict[str, Any]]:
@@ -312,12 +304,6 @@ def _choice(value: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(choices, list) or not choices or not isinstance(choices[0], dict):
         raise Passing(f"answered without choices: {_excerpt(json.dumps(value))}")
     return choices[0]
-
-
-def _text(message: dict[str, Any]) -> str:
-    """The text of a message; models that refuse or think first have none for a while."""
-    content = message.get("content")
-    return content if isinstance(content, str) else ""
 
 
 def _choices(value: Any) -> list[Choice] | None:

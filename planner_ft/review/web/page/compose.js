@@ -24,7 +24,7 @@ export function NewCommand({ store, close }) {
       <label for="command-text">What is to be done? Say the objective, the place, what to record, and the limits.</label>
       <textarea id="command-text" ref=${field} rows="6" value=${text} disabled=${!planner.available} onInput=${(event) => write(event.target.value)} onKeyDown=${keys}
         aria-describedby="command-refused" placeholder="Find the green buoy, circle it at 12 m with video, come home."></textarea>
-      <p class="soft">${planner.available ? `${planner.candidate}, ${planner.configuration}. A new plan is saved beside the others, never over one.` : planner.why}</p>
+      <p class="soft">${planner.available ? `${[planner.candidate, planner.configuration].filter(Boolean).join(", ")}. A new plan is saved beside the others, never over one.` : planner.why}</p>
       <${Refusal} id="command-refused" text=${refused} />
       ${asked === text && html`<p class="buttons"><button type="button" class="act" onClick=${(event) => send(event, true)}>Plan what can be read</button></p>`}
       <p class="buttons">${document && html`<button type="button" onClick=${() => write(document.command)}>Take the command shown</button>`}

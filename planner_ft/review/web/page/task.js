@@ -35,7 +35,7 @@ function Line({ store, task, number, row }) {
     <span class="what"><span class="title">${task.title}</span> <bdi class="gist">${gist(store, task)}</bdi></span>
     <span class="marks"><${Flags} store=${store} task=${task} /></span>
     <span class="way"><span class="unseen">, way </span>${least(row.known, !row.length, metres(row.length))}</span>
-    <span class="time"><span class="unseen">, time </span>${least(row.known, !row.seconds, seconds(row.seconds))}</span>
+    <span class="time"><span class="unseen">, time </span>${least(row.known, !row.seconds, seconds(row.seconds < 600 ? row.seconds : 60 * Math.round(row.seconds / 60)))}</span>
     <span class="used"><span class="unseen">, endurance used at its end </span>${row.used === null ? "" : percent(row.used)}</span>`;
 }
 
@@ -54,7 +54,7 @@ function gist(store, task) {
   const known = store.plan.vocabulary.tasks.find((one) => one.title === task.title)?.parameters || [];
   return Object.entries(task.parameters).map(([name, value]) => {
     if (task.located?.[name]) return cut(task.located[name]);
-    if (same(value, store.plan.vocabulary.unresolved)) return `${cut(task.waits_for || "place")}: place not known`;
+    if (same(value, store.plan.vocabulary.unresolved)) return task.waits_for ? `place not known: ${cut(task.waits_for)}` : "place not known";
     if (same(value, store.plan.vocabulary.home)) return "home";
     const { unit } = known.find((one) => one.name === name) || {};
     return unit === "s" ? seconds(value) : cut(withUnit(value, unit));

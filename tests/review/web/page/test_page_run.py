@@ -20,9 +20,8 @@ EAST = "Number(document.querySelector('.vessel path')?.dataset.pose.split(' ')[0
 
 
 def approved(opened: Opened) -> Page:
-    page = opened(make_plan("Go to [30, 0], come home.", AWAY))
+    page = opened(make_plan("Go to [30, 0], come home.", AWAY), reviewer="Bo")
     approve(page.review.document(), page.review.session.log, "Ada", ["all"])
-    page.write("#reviewer", "Bo")
     page.one("#run")
     return page
 
