@@ -32,12 +32,14 @@ class Ask:
     """Words that ask for one of `tasks`; with `sends`, the clause also names what is sent.
 
     `named`: these words, and those that name the task where it is ruled out: "skip the report".
+    `sure`: nobody asks for the task without one of these words, where they are known.
     """
 
     said: re.Pattern[str]
     tasks: frozenset[str]
     sends: bool
     named: re.Pattern[str]
+    sure: re.Pattern[str] | None = None
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,9 @@ def language(vocabulary: Vocabulary) -> Language:
             frozenset(entry["tasks"]),
             entry.get("sends", False),
             pattern([*entry["words"], *entry.get("nouns", ())]),
+            pattern([*entry["words"], *entry.get("nouns", ()), *entry["sure"]])
+            if "sure" in entry
+            else None,
         )
         for entry in own.get("ask", ())
     )
@@ -118,8 +123,8 @@ def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     for entry in asks if isinstance(asks, list) else [asks]:
         if not isinstance(entry, dict) or not all(_are_words(entry.get(key)) for key in ASK):
             yield "every [[ask]] needs the lists words and tasks"
-        elif "nouns" in entry and not _are_words(entry["nouns"]):
-            yield "[[ask]]: nouns must be a list of words"
+        elif wrong := [key for key in ("nouns", "sure") if not _are_words(entry.get(key, ["a"]))]:
+            yield f"[[ask]]: {wrong[0]} must be a list of words"
         else:
             unknown = [title for title in entry["tasks"] if title not in vocabulary.task]
             yield from (f"[[ask]] names {title!r}, which is no task" for title in unknown)

@@ -20,6 +20,9 @@ from planner_ft.facts.places import read_geographic
 from planner_ft.support.geodesy import NEAREST_POLE, Origin
 from planner_ft.vocabulary import Vocabulary
 
+_COMMA = r"\s?[=:]?\s?[-−–]?\d+,\d+"
+COMMAS = re.compile(rf"(?i)(?<!\w)x{_COMMA}(?:\s+\w+)?\s+y{_COMMA}(?![\d,.]*\d)")
+"""Coordinates by their axes with decimal commas."""
 FAR = 100_000.0
 """Metres from the origin beyond which a position of the command makes the origin doubtful."""
 
@@ -54,12 +57,15 @@ class Frame:
 
     @functools.cached_property
     def spoken(self) -> str:
-        """The command with every swap made."""
+        """The command with every swap made, and decimal points for the commas of "x = 12,5 and
+        y = 40,5".
+        """
         parts, done = [], 0
         for swap in self.swaps:
             parts += [self.command[done : swap.start], swap.written]
             done = swap.end
-        return "".join([*parts, self.command[done:]])
+        text = "".join([*parts, self.command[done:]])
+        return COMMAS.sub(lambda match: match[0].replace(",", "."), text)
 
     def span(self, start: int, end: int) -> Span:
         """Where words of `spoken` stand in the command; those of a swap are its words."""

@@ -80,3 +80,18 @@ def test_commands_in_metres_are_left_alone() -> None:
     command = "Go to [40.25, 25.5], 12.345 m off, at 10:30."
     assert agents_frame(command, None).spoken == command
     assert local_frame(command, KIEL).spoken == command
+
+
+@pytest.mark.parametrize(
+    ("command", "spoken"),
+    [
+        ("Fahre zu x = 12,5 und y = -40,5.", "Fahre zu x = 12.5 und y = -40.5."),
+        ("Go to X 3,25 Y 4,75 and hold.", "Go to X 3.25 Y 4.75 and hold."),
+        ("Go to x = 12, y = 40.", "Go to x = 12, y = 40."),
+        ("Go to 12,5 and 40,5.", "Go to 12,5 and 40,5."),
+    ],
+)
+def test_decimal_commas_behind_axes_are_points(command, spoken):
+    frame = agents_frame(command, None)
+    assert frame.spoken == spoken
+    assert frame.span(3, 9) == (3, 9)

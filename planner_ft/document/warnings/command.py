@@ -42,6 +42,7 @@ def command_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Ite
     clauses = read_clauses(document["command"], vocabulary)
     gone = {ask for ask in spoken.asks if _withdrawn(ask, clauses, spoken)}
     yield from _planned_still(document, gone, clauses, spoken)
+    yield from _unasked(document, spoken)
     for clause in clauses:
         for words, start in _unanswered(clause, planned, spoken, gone, vocabulary):
             if words.casefold() not in declined:
@@ -66,7 +67,11 @@ def other_language(command: str) -> str | None:
 
 
 def _withdrawn(ask: Ask, clauses: Sequence[Clause], spoken: Language) -> str | None:
-    """The words that rule a task out, where nothing behind them asks for it again."""
+    """The words that rule a task out, where nothing behind them asks for it again. An ask without
+    nouns is of several things: what rules one of them out leaves the others.
+    """
+    if ask.named.pattern == ask.said.pattern:
+        return None
     last = None
     for clause in (one for one in clauses if not one.corrected):
         for match in ask.named.finditer(clause.text):
@@ -89,6 +94,17 @@ def _planned_still(
         if len(own) == 1 and words:
             text = f'The command says "{words}", and {named(own[0])} is in the plan.'
             yield warning("contradiction", text, own[0], about=words.casefold())
+
+
+def _unasked(document: Mapping[str, Any], spoken: Language) -> Iterator[Warning]:
+    """Tasks that nobody asks for without words for them, of which the command has none."""
+    if unknown_words(document["command"])[1] >= UNKNOWN:
+        return
+    told = " ".join(document["command"].split())
+    for ask in (one for one in spoken.asks if one.sure and not one.sure.search(told)):
+        for task in (one for one in document["tasks"] if one["title"] in ask.tasks):
+            text = f"{named(task)}: no words of the command ask for it."
+            yield warning("value-not-said", text, task, about="asked")
 
 
 def _unanswered(
@@ -122,8 +138,8 @@ def _is_noun(text: str, start: int, spoken: Language) -> bool:
 
 
 def _instruction_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and ruled
-    out.
+    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and
+    ruled out.
     """
     text, spoken = without_geographic(frame_of(document).spoken), language(vocabulary)
     clauses, tasks = read_clauses(text, vocabulary), document["tasks"]

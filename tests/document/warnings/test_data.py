@@ -120,3 +120,12 @@ def test_words_for_markers_names_and_the_environment_are_known(words: str, skill
     command = f"Go to [40, 20] and {words}."
     assert len(warned(command)) == 1
     assert warned(command, skill) == []
+
+
+def test_a_task_that_no_words_ask_for_is_named() -> None:
+    turns = [step("RotateToHeading", {"heading": heading}) for heading in (0, 90, 180, 270)]
+    look = task("HorizontalPanorama", {"sectors": 4}, turns)
+    said = "Task 1, HorizontalPanorama: no words of the command ask for it."
+    for command, count in (("Go on and read the gauge.", 1), ("Look all round.", 0)):
+        made = document([look], command=command)
+        assert [one["text"] for one in made["warnings"]].count(said) == count
