@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import torch
 from tensordict import TensorDict
-from tensordict.nn import TensorDictModule
+from tensordict.nn import InteractionType, TensorDictModule
 from torchrl.modules import ProbabilisticActor, TanhNormal, ValueOperator
 from torchrl.objectives import ClipPPOLoss
 from torchrl.objectives.value import GAE
@@ -63,7 +63,11 @@ class Learner:
             self.surveyor.spread, in_keys=["observation"], out_keys=["loc", "scale"]
         )
         self.actor = ProbabilisticActor(
-            spread, in_keys=["loc", "scale"], distribution_class=TanhNormal, return_log_prob=True
+            spread,
+            in_keys=["loc", "scale"],
+            distribution_class=TanhNormal,
+            return_log_prob=True,
+            default_interaction_type=InteractionType.RANDOM,
         )
         self.critic = ValueOperator(self.surveyor.critic(), in_keys=["observation"])
         self.advantage = GAE(gamma=settings.gamma, lmbda=settings.lmbda, value_network=self.critic)

@@ -28,7 +28,9 @@ OPTION, ARRIVED = 15, 0.25
 AHEAD, ASIDE = (0.5, 4.0), 3.0
 """Chosen: metres of a waypoint ahead (w_min, w_max) and to either side (w_y,max)."""
 LONGEST = 150
-"""Chosen: options of an episode at most."""
+"""Chosen: options of an episode at most. Its end, as that of a lap, cuts an episode off: what would
+have followed counts, or learners that are paid while they go round would put off coming round.
+"""
 CLEAR = geometry.HULL_RADIUS + geometry.TOUCH
 """Chosen: metres from all of the outline at the start."""
 BAND = 0.5
@@ -228,9 +230,10 @@ class Survey:
         reward = reward + task.visibility_weight * (2 * seen - 1)
         wrong |= geometry.inside(self.state[:, :2], self.outline)
         reward = reward - 10.0 * hit - 5.0 * wrong - 3.0 * lost
-        terminated = hit | lap | lost
-        truncated = ~terminated & (self.options >= LONGEST)
-        kinds = zip(*(one.tolist() for one in (hit, lap, lost, truncated)), strict=True)
+        terminated = hit | lost
+        late = ~terminated & ~lap & (self.options >= LONGEST)
+        truncated = lap | late
+        kinds = zip(*(one.tolist() for one in (hit, lap, lost, late)), strict=True)
         names = ("collision", "success", "lost", "late")
         outcome = [
             next((n for n, is_so in zip(names, k, strict=True) if is_so), None) for k in kinds

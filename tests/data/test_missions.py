@@ -33,7 +33,8 @@ def draws(command, plan, count=25, vehicle=USV, **remarks):
     """(text, tasks as (title, parameters), plan) of a template."""
     made, sampler = template(command, plan, **remarks), mission_sampler(vehicle)
     for seed in range(count):
-        text, expected = sampler.draw(made, random.Random(seed))
+        command = sampler.compose([made], random.Random(seed))
+        text, expected = command.text, command.expected
         tasks = [(task["title"], task["parameters"]) for task in expected["tasks"]]
         yield plain(text), tasks, expected
 
@@ -60,7 +61,8 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
             fill.parameter.name for item in bound.lines for fill in item.fills if not fill.slot
         }
         for seed in range(2 if number % 4 == 0 else 1):
-            text, expected = sampler.draw(line, random.Random(f"{line.id}{seed}"))
+            command = sampler.compose([line], random.Random(f"{line.id}{seed}"))
+            text, expected = command.text, command.expected
             assert text, line.where
             assert plan_problems("mission", expected, vehicle, strict=True) == [], line.where
             if number % 4:

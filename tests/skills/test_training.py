@@ -80,6 +80,28 @@ def test_imitation_learns(tmp_path: Path) -> None:
     assert found[-1]["loss"] < 0.5 * found[0]["loss"]
 
 
+def test_the_published_recipe_tries_other_actions_and_learns_from_them() -> None:
+    pytest.importorskip("torchrl")
+    from tensordict import TensorDict
+
+    from planner_ft.skills.ppo import Learner, PpoSettings
+
+    torch.manual_seed(0)
+    learner = Learner(PpoSettings(minibatch=64, epochs=4))
+    seen = torch.rand(1, 1, 68).expand(8, 16, 68)
+    with torch.no_grad():
+        batch = learner.actor(TensorDict({"observation": seen}, [8, 16]))
+    assert (batch["action"].flatten(0, 1).std(dim=0) > 0.3).all()
+    ends = torch.ones(8, 16, 1, dtype=torch.bool)
+    reward = batch["action"][..., :1].clone()
+    after = {"observation": seen, "reward": reward, "terminated": ends, "done": ends}
+    batch["next"] = TensorDict(after, [8, 16])
+    before = learner.surveyor(seen[0, :1])[0, 0].detach()
+    for _again in range(3):
+        learner.learn(batch.clone(), torch.Generator().manual_seed(0))
+    assert learner.surveyor(seen[0, :1])[0, 0] > before + 0.02
+
+
 @pytest.mark.parametrize(
     ("given", "text"),
     [
