@@ -138,8 +138,8 @@ def _is_noun(text: str, start: int, spoken: Language) -> bool:
 
 
 def _instruction_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and ruled
-    out.
+    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and
+    ruled out.
     """
     text, spoken = without_geographic(frame_of(document).spoken), language(vocabulary)
     clauses, tasks = read_clauses(text, vocabulary), document["tasks"]
