@@ -31,8 +31,8 @@ demo: install
 	$(BIN)/plannerft gen-data --level mission --out build/demo/data/usv --overwrite
 	$(BIN)/plannerft gen-data $(DRONE) --out build/demo/data/drone --overwrite
 	$(BIN)/plannerft train $(DRONE) --candidate embedded --data-dir build/demo/data/drone/mission --output build/demo/adapter --overwrite
-	$(BIN)/plannerft bench $(DRONE) --candidates embedded --configurations base,lora,lora+schema,lora+grounded --adapter build/demo/adapter \
-	    --data data/inspection_drone/mission/challenge.jsonl --max-new-tokens 400 --latency-samples 0 --no-report --out build/demo/drone --overwrite
+	$(BIN)/plannerft bench $(DRONE) --candidates embedded --configurations base,base+schema,lora,lora+schema,lora+grounded --adapter build/demo/adapter \
+	    --data data/inspection_drone/mission/challenge.jsonl --max-new-tokens 800 --latency-samples 0 --no-report --out build/demo/drone --overwrite
 	$(BIN)/plannerft bench --level mission --candidates embedded --configurations lora+grounded \
 	    --data data/mission/challenge.jsonl --limit 40 --latency-samples 0 --no-report --out build/demo/surface --overwrite
 	$(BIN)/plannerft plan "Circle the chimney at [40, 25] at eight metres and come home." \

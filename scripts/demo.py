@@ -64,7 +64,8 @@ def sentences(drone: Results, surface: Results, trained: dict) -> list[str]:
     rows = {one.system.configuration: one for one in drone.rows}
     seconds, samples = trained["result"]["seconds"], trained["samples"]["training"]
     return [
-        f"Shown the drone's tasks in its prompt alone, the base reaches {figures(rows['base'])}; an"
+        "Shown the drone's tasks in its prompt alone, the base reaches"
+        f" {figures(rows['base'])}, held to the schema {figures(rows['base+schema'])}; an"
         f" adapter trained on {samples} commands in {clock(seconds)} minutes reaches"
         f" {figures(rows['lora'])}, by F1 {verdict(drone, 'base', 'lora', 'f1')}.",
         "With the facts of the command enforced the same adapter reaches"
