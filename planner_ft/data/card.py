@@ -48,49 +48,43 @@ def dataset_card(
     )
     template = environment.from_string(Path(__file__).with_name("card.md.j2").read_text("utf-8"))
     total = sum(map(len, splits.values()))
-    every: dict[str, dict[str, Any]] = {
+    every = {
         split: {
             "names": [name for record in records for name in plan_names(level, record["expected"])],
             "inputs": [record["task"] for record in records if "task" in record],
             "tags": [tag for record in records for tag in record.get("tags", ())],
-            "pairs": set(_pairs(level, records)),
+            "pairs": [*dict.fromkeys(_pairs(level, records))],
         }
         for split, records in splits.items()
     }
 
-    def counts(names: Iterable[str], of: str) -> Iterator[list[Any]]:
+    def counts(names: Iterable[str], of: str) -> list[list[Any]]:
         """Each name with how often it was found in each split."""
         found = [Counter(figures[of]) for figures in every.values()]
-        return ([f"`{name}`", *(counter[name] for counter in found)] for name in names)
+        return [[f"`{name}`", *(counter[name] for counter in found)] for name in names]
 
-    known = every["train"]["pairs"] if "train" in every else set()
+    known = set(every.get("train", {}).get("pairs", ()))
     figures = {split: diversity(records) for split, records in splits.items() if records}
+    leaks = leakage or {"baseline": [], "overlaps": []}
     tagged = leakage and any(of_split["tags"] for of_split in every.values())
-    baselines = [
-        [one["split"], *(f"{100 * one[key]:.1f} %" for key in SCORES), one["similarity"]]
-        for one in (leakage["baseline"] if leakage else ())
-    ]
     alone = len(vocabulary.skills_in_role("navigation"))
     beside = len(vocabulary.skills) - alone
     return template.render(
         table=table,
         level=level,
         labelling=labelling,
+        vocabulary=vocabulary,
         configs={"default": "", **({"chat": "chat/"} if chat else {})},
-        vehicle=vocabulary.title,
-        frame=vocabulary.frame,
-        home=list(vocabulary.home),
-        unresolved=list(vocabulary.unresolved),
         seed=seed,
         size=next((name for limit, name in SIZES if total < limit), "n>1M"),
         splits=list(splits),
         counts=[[split, len(records)] for split, records in splits.items()],
         names=counts(vocabulary.task if level == "mission" else vocabulary.skill, "names"),
-        inputs=list(counts(vocabulary.task, "inputs")) if level == "task" else [],
+        inputs=counts(vocabulary.task, "inputs") if level == "task" else [],
         # Skills that can run at the same time: navigation with others, and others.
         possible_pairs=alone * beside + beside * (beside - 1) // 2,
         pairs=[
-            [split, len(one["pairs"]), len(one["pairs"] - known)] for split, one in every.items()
+            [split, len(one["pairs"]), len({*one["pairs"]} - known)] for split, one in every.items()
         ],
         tags=[
             [tag, TAGS[tag[1:-1]], *found]
@@ -103,10 +97,11 @@ def dataset_card(
             for name in next(iter(figures.values()), {})
         ],
         leakage=leakage,
-        overlaps=[
-            [one[key] for key in OVERLAP] for one in (leakage["overlaps"] if leakage else ())
+        overlaps=[[one[key] for key in OVERLAP] for one in leaks["overlaps"]],
+        baselines=[
+            [one["split"], *(f"{100 * one[key]:.1f} %" for key in SCORES), one["similarity"]]
+            for one in leaks["baseline"]
         ],
-        baselines=baselines,
         families=Counter(
             record["family"] for records in splits.values() for record in records
         ).most_common(FAMILIES),
@@ -120,9 +115,7 @@ def table(header: Sequence[Any], rows: Iterable[Sequence[Any]]) -> str:
 
 
 def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
-    """Mission level: titles that follow each other. Task level: skills that run at the same time,
-    in alphabetical order.
-    """
+    """Titles that follow each other; at task level skills that run at the same time, sorted."""
     for record in records:
         if level == "mission":
             yield from itertools.pairwise(plan_names(level, record["expected"]))

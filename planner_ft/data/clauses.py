@@ -6,7 +6,7 @@ demands under [demand] in NAME.missions.toml (docs/data.md, "Clauses").
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -24,19 +24,10 @@ from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence,
 if TYPE_CHECKING:
     from planner_ft.data.missions import MissionSampler
 
+_MEASURED = {"distance": "m", "range": "m", "speed": "m/s", "duration": "s"}
+_VALUES = (*(Parameter(name, "number", unit) for name, unit in _MEASURED.items()),)
 LIMIT = Task(
-    title="Limit",
-    category="",
-    description="",
-    arrival="none",
-    pattern="",
-    parameters=(
-        Parameter("distance", "number", "m"),
-        Parameter("range", "number", "m"),
-        Parameter("speed", "number", "m/s"),
-        Parameter("duration", "number", "s"),
-        Parameter("polygon", "polygon", "m"),
-    ),
+    "Limit", "", "", "none", "", parameters=(*_VALUES, Parameter("polygon", "polygon", "m"))
 )
 """What the values of limits are drawn for; [task.Limit] in NAME.missions.toml has their ranges."""
 SCOPES = ("mission", "task", "way", "home")
@@ -66,7 +57,7 @@ class Clause(Drawing):
         self, sampler: MissionSampler, template: Template, rng: Random, it: Target | None = None
     ) -> None:
         self.it = it
-        super().__init__(sampler, _bound(template, sampler), template, rng)
+        super().__init__(sampler, bind_clause(template, sampler), template, rng)
 
     def _draw(self, slot: Slot) -> None:
         if slot.base != IT:
@@ -75,13 +66,11 @@ class Clause(Drawing):
             self.targets[IT] = self.it
 
     def _new(self, key: str) -> Value:
-        rng = self.rng
         value = super()._new(key)
-        if value.noun and base_of(key) == "polygon" and rng.random() < BOXED:
+        if value.noun and base_of(key) == "polygon" and self.rng.random() < BOXED:
             return Value(value.value, value.noun)
-        if base_of(key) == "speed" and rng.random() < SPOKEN_IN_KNOTS:
-            return knots(rng)
-        return value
+        spoken = base_of(key) == "speed" and self.rng.random() < SPOKEN_IN_KNOTS
+        return knots(self.rng) if spoken else value
 
     def effect(
         self, planned: Sequence[Planned], covered: set[int], *, alone: bool
@@ -89,45 +78,41 @@ class Clause(Drawing):
         """What the clause adds to a plan of which it covers the tasks at these places; None where
         it does not fit. `alone`: these tasks are one thing that was asked for.
         """
-        effect = Effect()
-        titles, own = self.template.tasks, self.own(planned, covered)
-        if titles and not {planned[place].task.title for place in own} & set(titles):
+        effect, titles = Effect(), frozenset(self.template.tasks)
+        asked = [at for at in sorted(covered) if not planned[at].inserted]
+        own = [at for at in asked if not planned[at].intent.home]
+        if titles and titles.isdisjoint(planned[at].task.title for at in own):
             return None
-        for step in self.template.steps:
-            call = step.call
+        limits, places = load_limits(self.vocabulary), moving(planned)
+        for call in (step.call for step in self.template.steps):
             if call.label and call.label not in self.labels:
                 continue
             given = self._given(call)
-            limited = call.name in load_limits(self.vocabulary)
-            add = self._limit if limited else self._demand
-            if (given.get("scope", "mission") != "mission" and not alone) or not add(
-                call.name, given, planned, covered, effect
-            ):
+            if given.get("scope", "mission") != "mission" and not alone:
+                return None
+            if call.name in limits:
+                fits = self._limit(call.name, given, planned, own, effect)
+            else:
+                fits = self._demand(call.name, given, planned, covered, effect)
+            if not fits:
+                return None
+            if not places:
                 return None
         for text in self.remarks()[0]:
             effect.constraints.append(text)
-            effect.sentences += [(place, text, None) for place in moving(planned)]
+            effect.sentences += [(place, text, None) for place in places]
         return effect
-
-    def own(self, planned: Sequence[Planned], covered: set[int]) -> list[int]:
-        """The places of the tasks that were asked for by name."""
-        return [
-            place
-            for place in sorted(covered)
-            if not planned[place].inserted and not planned[place].intent.home
-        ]
 
     def _given(self, call: Call) -> dict[str, Any]:
         """The values of a call by name; a target gives object and position."""
         found: dict[str, Any] = {}
         for argument in call.arguments:
-            key = str(argument.value)
-            target = self.targets.get(key) if argument.kind == "slot" else None
-            if target is not None:
+            key, slot = str(argument.value), argument.kind == "slot"
+            if slot and (target := self.targets.get(key)):
                 found["object"] = target.identity or (target.description and target.name)
                 if target.position is not None:
                     found["position"] = [tidy(number) for number in target.position]
-            elif argument.kind == "slot" and key in self.values:
+            elif slot and key in self.values:
                 value, name = self.values[key], argument.name or base_of(key)
                 found[name] = value.text if name == "time" else value.value
             else:
@@ -140,17 +125,17 @@ class Clause(Drawing):
         kind: str,
         given: dict[str, Any],
         planned: Sequence[Planned],
-        covered: set[int],
+        own: Sequence[int],
         effect: Effect,
     ) -> bool:
-        limits = load_limits(self.vocabulary)
-        places, titles = moving(planned), tuple[str, ...]()
+        """Whether a limit fits; if so, the effect has it. One of the tasks at the places `own`
+        alone names their titles, which no other task may have.
+        """
+        limits, places, titles = load_limits(self.vocabulary), moving(planned), list[str]()
         if given.pop("scope", "mission") == "task":
-            own = self.own(planned, covered)
-            titles = tuple(planned[place].task.title for place in own)
-            if titles and any(
-                item.task.title in titles and place not in own for place, item in enumerate(planned)
-            ):
+            titles = [planned[place].task.title for place in own]
+            others = (item for place, item in enumerate(planned) if place not in own)
+            if any(item.task.title in titles for item in others):
                 return False
             places = [place for place in places if place in own]
         if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
@@ -165,7 +150,7 @@ class Clause(Drawing):
         elif kind == "duration" and not titles:
             places = []
         effect.sentences += [(place, text, beside) for place in places]
-        return bool(moving(planned))
+        return True
 
     def _demand(
         self,
@@ -175,22 +160,20 @@ class Clause(Drawing):
         covered: set[int],
         effect: Effect,
     ) -> bool:
-        titles = self.template.tasks
-        scope = given.pop("scope", "mission")
-        transit = self.vocabulary.transit
+        """Whether a demand fits a task; if so, the effect has it."""
+        titles, scope = self.template.tasks, given.pop("scope", "mission")
         places = []
         for place in moving(planned):
-            title, home = planned[place].task.title, planned[place].intent.home
-            fits = name in planned[place].task.skills.get("perception", ())
+            task, home = planned[place].task, planned[place].intent.home
+            transit = task.title == self.vocabulary.transit
+            fits = name in task.skills.get("perception", ())
             if scope == "home":
                 fits = home
             elif scope == "way":
-                fits = place in covered and title == transit and not home
+                fits = place in covered and transit and not home
             elif scope == "task":
-                fits = (
-                    place in covered and not planned[place].inserted and (fits or title == transit)
-                )
-            if fits and (not titles or title in titles):
+                fits = place in covered and not planned[place].inserted and (fits or transit)
+            if fits and (not titles or task.title in titles):
                 places.append(place)
         text, beside = demanded(name, given, self.sampler)
         effect.about.add(name)
@@ -201,7 +184,7 @@ class Clause(Drawing):
 def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple[str, Beside]:
     """The sentence of a task prompt that asks for a skill, and the skill with its parameters."""
     skill, where = sampler.vocabulary.skill[name], given.pop("where", "")
-    text = given.pop("say", "") or _demands(sampler)[name]
+    text = given.pop("say", "") or sampler.config["demand"][name]
     for parameter in skill.parameters:
         value = given.get(parameter.name)
         if parameter.type == "texts" and isinstance(value, str):
@@ -212,29 +195,19 @@ def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple
 
 def moving(planned: Sequence[Planned]) -> list[int]:
     """The places of the tasks in which the vehicle moves or holds a place."""
-    return [
-        place
-        for place, item in enumerate(planned)
-        if item.task.arrival != "none" or item.task.pattern != "hold"
-    ]
+    tasks = enumerate(item.task for item in planned)
+    return [at for at, task in tasks if task.arrival != "none" or task.pattern != "hold"]
 
 
-def _demands(sampler: MissionSampler) -> Mapping[str, str]:
-    demands: Mapping[str, str] = sampler.config.get("demand", {})
-    return demands
-
-
-def _bound(template: Template, sampler: MissionSampler) -> Bound:
+def bind_clause(template: Template, sampler: MissionSampler) -> Bound:
     """The clause for this vehicle. Raises TemplateError."""
-    vocabulary = sampler.vocabulary
-    known: Bound | None = template.bound.get(vocabulary)
-    if known is not None:
-        return known
-    limits, used = load_limits(vocabulary), set[str]()
+    vocabulary, used = sampler.vocabulary, set[str]()
+    if (known := template.bound.get(vocabulary)) is not None:
+        return known  # type: ignore[no-any-return]
+    demands: dict[str, str] = sampler.config.get("demand", {})
+    names = load_limits(vocabulary).keys() | (demands.keys() & vocabulary.skill)
     for call in (step.call for step in template.steps):
-        if call.name not in limits and (
-            call.name not in vocabulary.skill or call.name not in _demands(sampler)
-        ):
+        if call.name not in names:
             raise TemplateError(f"{call.name} is no kind of limit and no skill with a [demand]")
         for argument in call.arguments:
             value = str(argument.value)
@@ -245,10 +218,7 @@ def _bound(template: Template, sampler: MissionSampler) -> Bound:
     for title in template.tasks:
         if title not in vocabulary.task:
             raise TemplateError(f"there is no task {title}")
-    owners = {
-        slot.key: (LIMIT, LIMIT.by_name[slot.base])
-        for slot in all_slots(template.nodes)
-        if slot.base in LIMIT.by_name
-    }
-    found = template.bound[vocabulary] = bound(template, sampler.words, used, owners)
+    every = all_slots(template.nodes)
+    owners = {s.key: (LIMIT, LIMIT.by_name[s.base]) for s in every if s.base in LIMIT.by_name}
+    found = template.bound[vocabulary] = bound(template, sampler.words, used, owners, [])
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
@@ -13,7 +14,6 @@ from planner_ft.data.drawing import Drawing
 from planner_ft.data.mission_binding import CLAUSE
 from planner_ft.data.mission_plan import Intent, Target, label
 from planner_ft.data.numbers import pick
-from planner_ft.data.templates.grammar import Slot
 from planner_ft.data.templates.records import FORMS, Template
 from planner_ft.data.templates.render import PIECE, joined
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 TRIES, MANY = 12, 6
 DEMANDED = 0.5
 """Share of demands for data among the clauses; the others are limits."""
-OPPOSED = ("no_recording", "SetStreamRecording"), ("no_recording", "CaptureGeoSnapshot")
+OPPOSED = {"no_recording", "SetStreamRecording"}, {"no_recording", "CaptureGeoSnapshot"}
 BUT = (", but ", ", but ", " but ", ", and ", "; ", " and ", ", ")
 BEHIND = (", ", ", ", " ", " - ", " (")
 FIRST, FRONT, BODY, LAST = range(4)
@@ -62,8 +62,7 @@ class Composer:
             [_renamed(intent, number) for intent in drawing.intents()]
             for number, drawing in enumerate(self.drawings)
         ]
-        every = [intent for intents in self.intents for intent in intents]
-        self.planned = label(every, sampler.vocabulary)
+        self.planned = label(itertools.chain(*self.intents), sampler.vocabulary)
         self.bodies = [list[PIECE]() for _ in self.drawings]
         self.before, self.after = list[PIECE](), list[PIECE]()
         self.effects: list[tuple[int, int, Effect]] = []
@@ -81,48 +80,44 @@ class Composer:
 
     # ------------------------------------------------------------ clauses
 
-    def _fill_slots(self) -> None:
-        for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
-            for slot in drawing.parts:
-                if not isinstance(slot, Slot) or slot.base != CLAUSE:
-                    continue
-                lines = zip(drawing.lines, intents, strict=True)
-                own = [intent for line, intent in lines if slot.key in line.clauses]
-                found = self._clause(own, (slot.kind,), alone=True)
-                if found:
-                    drawing.clauses[slot.key], effect = found
-                    self.effects.append((BODY, number, effect))
-
     def _own_demands(self) -> None:
         """What the templates themselves ask for beside their tasks."""
         for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
             for line, intent in zip(drawing.lines, intents, strict=True):
+                places = self._covered([intent], inserted=False)
                 for call in line.demands:
-                    if call.label and call.label not in drawing.labels:
-                        continue
-                    given = {argument.name: argument.value for argument in call.arguments}
-                    text, skill = demanded(call.name, given, self.sampler)
-                    places = [
-                        place
-                        for place, item in enumerate(self.planned)
-                        if item.intent is intent and not item.inserted
-                    ]
-                    effect = Effect({call.name}, [], [(place, text, skill) for place in places])
-                    self.effects.append((BODY, number, effect))
+                    if not call.label or call.label in drawing.labels:
+                        given = {argument.name: argument.value for argument in call.arguments}
+                        text, skill = demanded(call.name, given, self.sampler)
+                        effect = Effect({call.name}, [], [(place, text, skill) for place in places])
+                        self.effects.append((BODY, number, effect))
+
+    def _fill_slots(self) -> None:
+        for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
+            for slot in drawing.slots:
+                if slot.base == CLAUSE:
+                    lines = zip(drawing.lines, intents, strict=True)
+                    own = [intent for line, intent in lines if slot.key in line.clauses]
+                    if found := self._clause(own, (slot.kind,), alone=True):
+                        drawing.clauses[slot.key], effect = found
+                        self.effects.append((BODY, number, effect))
+
+    def _covered(self, intents: Sequence[Intent], *, inserted: bool = True) -> list[int]:
+        """The places in the plan of the tasks of intents."""
+        return [
+            place
+            for place, item in enumerate(self.planned)
+            if any(item.intent is one for one in intents) and (inserted or not item.inserted)
+        ]
 
     def _clause(
         self, intents: Sequence[Intent], forms: Sequence[str], *, alone: bool
     ) -> tuple[Clause, Effect] | None:
         """A clause of one of these forms that fits what was asked for, and what it adds."""
-        covered = {
-            place
-            for place, item in enumerate(self.planned)
-            if any(item.intent is intent for intent in intents)
-        }
+        covered = set(self._covered(intents))
         it = _target(intents)
         for _ in range(TRIES):
-            demands, limits = self.clauses
-            group = demands if self.rng.random() < DEMANDED else limits
+            group = self.clauses[self.rng.random() >= DEMANDED]
             fitting = [template for template in group if template.form in forms]
             if not fitting:
                 continue
@@ -138,15 +133,13 @@ class Composer:
     def _clashes(self, effect: Effect) -> bool:
         """Whether an earlier clause is about the same, or the opposite."""
         taken = set[str]().union(*(earlier.about for _at, _number, earlier in self.effects))
-        both = taken | effect.about
-        opposed = any(first in both and second in both for first, second in OPPOSED)
+        opposed = any(taken | effect.about >= pair for pair in OPPOSED)
         return opposed or bool(taken & effect.about)
 
     def _add(self, number: int) -> None:
         """A clause at the end of one of the bodies, or before or behind the whole."""
         rng, asked = self.rng, [intent for intent in self.intents[number] if not intent.home]
-        found = self._clause(asked, FORMS, alone=len(asked) == 1)
-        if found is None:
+        if (found := self._clause(asked, FORMS, alone=len(asked) == 1)) is None:
             return
         clause, effect = found
         pieces, form, roll, at = list(clause.pieces()), clause.template.form, rng.random(), BODY
@@ -188,21 +181,20 @@ class Composer:
         return joined(pieces, small=self.drawings[0].small and not self.before)
 
     def _plan(self) -> tuple[dict[str, Any], list[list[Beside]]]:
-        sampler, excluded = self.sampler, list[str]()
-        notes, assumptions = list[str](), list[str]()
-        for drawing in self.drawings:
-            excluded += drawing.template.excluded
-            constraints, taken = drawing.remarks()
-            notes += constraints
-            assumptions += taken
-        notes = [*map(sampler.texts.excluded, excluded), *notes]
+        texts, config = self.sampler.texts, self.sampler.config
+        excluded = [title for one in self.drawings for title in one.template.excluded]
+        remarks = [drawing.remarks() for drawing in self.drawings]
+        constraints, assumptions = (
+            list(itertools.chain(*each)) for each in zip(*remarks, strict=True)
+        )
+        notes = [*map(texts.excluded, excluded), *constraints]
         if not self.planned and excluded:
-            notes.append(sampler.config.get("cancelled", "No task is left."))
+            notes.append(config.get("cancelled", "No task is left."))
         elif not self.planned and not notes:
-            notes.append(sampler.config.get("nothing", "The command asks for no task."))
+            notes.append(config.get("nothing", "The command asks for no task."))
         effects = [effect for _at, _number, effect in sorted(self.effects, key=itemgetter(0, 1))]
         notes += [text for effect in effects for text in effect.constraints]
-        expected = sampler.texts.plan(self.planned, notes, assumptions)
+        expected = texts.plan(self.planned, notes, assumptions)
         beside: list[list[Beside]] = [[] for _ in self.planned]
         for effect in effects:
             for place, text, skill in effect.sentences:

@@ -38,15 +38,13 @@ def curated_folder(vocabulary: Vocabulary) -> Path | None:
 
 def find_source(asked: Path | None = None, vocabulary: Vocabulary | None = None) -> Path:
     """The folder with the curated set: `asked`, else the vehicle's. Raises PlannerError."""
-    if asked is not None:
-        if not asked.is_dir():
-            raise PlannerError(f"--source {asked}: no such folder")
-        return asked
+    if asked is not None and not asked.is_dir():
+        raise PlannerError(f"--source {asked}: no such folder")
     vocabulary = vocabulary or load_vocabulary()
-    folder = curated_folder(vocabulary)
+    folder = asked or curated_folder(vocabulary)
     if folder is None:
-        where = "neither in a checkout nor in the package"
-        where = where if vocabulary.bundled else f"not in {vocabulary.data / 'mission'}"
+        where = f"not in {vocabulary.data / 'mission'}"
+        where = "neither in a checkout nor in the package" if vocabulary.bundled else where
         raise PlannerError(
             f"the curated mission set is {where}; give its folder with --source, or --level task"
             " alone"

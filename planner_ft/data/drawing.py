@@ -11,7 +11,7 @@ from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
 from planner_ft.data.mission_plan import Intent, Target, point_text
 from planner_ft.data.numbers import WRITTEN, Value, digits, pick, position
 from planner_ft.data.task.values import draw_point
-from planner_ft.data.templates.grammar import Nodes, Slot, TemplateError, base_of, choose
+from planner_ft.data.templates.grammar import Chosen, Nodes, Slot, TemplateError, base_of, choose
 from planner_ft.data.templates.records import Template
 from planner_ft.data.templates.render import PIECE, article_for
 from planner_ft.facts.geometry import Point
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
 DOUBTFUL, BARE, FITTING = 0.04, 0.5, 0.6
-"""Shares of positions said with doubt, sizes without a unit before another size, and line spacings
-that divide the width.
-"""
+"""Shares of doubtful positions, bare sizes before another size, spacings that divide the width."""
 LANES = 12
 PLACED = (
     *(" at {}",) * 26,
@@ -41,7 +39,7 @@ UNPLACED = frozenset(("a", "one", "look", "nouns"))
 """Options of mentions that carry no position."""
 
 
-class Drawing:
+class Drawing(Chosen):
     """One command in the making: what it speaks of, by slot."""
 
     def __init__(
@@ -51,18 +49,13 @@ class Drawing:
         self.words, self.vocabulary = sampler.words, sampler.vocabulary
         self.targets: dict[str, Target] = {}
         self.values: dict[str, Value] = {}
+        self.clauses: dict[str, Drawing] = {}
         self.alike: list[Target] = []
         roll = rng.random()
         self.form = None if roll > 0.85 else WRITTEN[0] if roll < 0.3 else pick(WRITTEN, rng)
-        self.parts = choose(template.nodes, rng, [])
-        slots = [part for part in self.parts if isinstance(part, Slot)]
-        self.labels = {slot.key for slot in slots if slot.sign == "?"}
+        super().__init__(template.nodes, rng)
         self.lines = [line for line in bound.lines if not line.label or line.label in self.labels]
-        self.clauses: dict[str, Drawing] = {}
-        self.said = {slot.key for slot in slots if not slot.sign}
-        self.slots = sorted(
-            (slot for slot in slots if slot.sign != "?"), key=lambda slot: slot.base != "P"
-        )
+        self.slots.sort(key=lambda slot: slot.base != "P")
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:
                 self._draw(slot)
@@ -73,8 +66,8 @@ class Drawing:
     def _draw(self, slot: Slot) -> None:
         key = slot.key
         if slot.base == "P":
-            near = {line.near for line in self.lines}
-            self.targets[key] = Target(key, position=self._point(), doubtful=key in near)
+            doubtful = any(line.near == key for line in self.lines)
+            self.targets[key] = Target(key, position=self._point(), doubtful=doubtful)
         elif slot.base == "T":
             self.targets[key] = self._target(slot)
         elif slot.base == "ID":
@@ -89,9 +82,15 @@ class Drawing:
             if point not in (self.vocabulary.home, self.vocabulary.unresolved):
                 return point
 
+    def _place_of(self, key: str) -> Point:
+        return self.targets[key].position or (0, 0)
+
     def _bound_place(self, key: str) -> Point | None:
         place = self.targets.get(self.bound.places.get(key, ""))
         return place.position if place else None
+
+    def _kind(self, key: str) -> str:
+        return self.bound.kinds.get(key, self.sampler.default)
 
     def _target(self, slot: Slot) -> Target:
         key, rng = slot.key, self.rng
@@ -103,8 +102,7 @@ class Drawing:
         lines = [line for line in self.lines if key in line.objects]
         common = any("a" in options for options, _owns in mentions)
         fixed = common or any("bare" in options or owns for options, owns in mentions)
-        kind = self.bound.kinds.get(key, self.sampler.default)
-        near = next((line.near for line in lines if line.near), "")
+        kind, near = self._kind(key), next((line.near for line in lines if line.near), "")
         target = self._alike(key) if kind == "pair" else self._described(key, kind, fixed, common)
         if key in self.bound.places:
             target = replace(target, position=self._bound_place(key))
@@ -112,8 +110,7 @@ class Drawing:
             doubt = rng.random() < DOUBTFUL
             target = replace(target, position=self._point(), doubtful=doubt)
         if near in self.targets:
-            whereabouts = f"near {point_text(self.targets[near].position or (0, 0))}"
-            target = replace(target, whereabouts=whereabouts)
+            target = replace(target, whereabouts=f"near {point_text(self._place_of(near))}")
         spot = any(line.task is not None and line.task.docks for line in lines)
         return replace(target, spot=spot, on_site=any(line.here for line in lines))
 
@@ -130,9 +127,7 @@ class Drawing:
         return "located" in every or self.rng.random() < (SOUGHT if sought else LOCATED)
 
     def _described(self, key: str, kind: str, fixed: bool, common: bool) -> Target:
-        """A target of a kind; `fixed` takes an article and has no "with ..." phrase, `common` no
-        name.
-        """
+        """A target; `fixed` takes an article and no "with ..." phrase, `common` no name."""
         for _ in range(20):
             value = self.words.noun(kind, self.rng)
             article = value.text != value.value
@@ -159,10 +154,7 @@ class Drawing:
         taken = [value.value for key, value in self.values.items() if base_of(key) == slot.base]
         for _ in range(60):
             value = self._new(slot.key)
-            forms = {"adj": value.short, "num": value.short, "noun": value.noun, "way": value.way}
-            if all(forms.get(option, "") is not None for option in options) and (
-                value.value not in taken or slot.base not in self.words
-            ):
+            if value.has(options) and (value.value not in taken or slot.base not in self.words):
                 break
         return value
 
@@ -194,11 +186,11 @@ class Drawing:
         """What is taken back: of the same kind, and another one."""
         key, rng = slot.key, self.rng
         if slot.base == "P":
-            right, point = self.targets[key].position or (0, 0), self._point()
+            right, point = self._place_of(key), self._point()
             near = (right[0], point[1]) if rng.random() < 0.5 else point
             return [(self._place(near if near != right else point), True)]
         if slot.base == "T":
-            kind = self.bound.kinds.get(key, self.sampler.default)
+            kind = self._kind(key)
             kind = self.sampler.default if kind == "pair" else kind
             return self._mention(self._described(key, kind, bool(slot.options), True), slot)
         if slot.base == "ID":
@@ -212,12 +204,6 @@ class Drawing:
 
     # ------------------------------------------------------------ text
 
-    @property
-    def small(self) -> bool:
-        """Whether the template is written without capitals."""
-        first = self.template.nodes[0] if self.template.nodes else ""
-        return isinstance(first, str) and first[:1].islower()
-
     def pieces(self) -> Iterator[PIECE]:
         """The text in pieces, each with whether it is a value."""
         wrong = {slot.key: self._wrong(slot) for slot in self.slots if slot.sign == "~"}
@@ -226,13 +212,10 @@ class Drawing:
         for number, part in enumerate(self.parts):
             if isinstance(part, str):
                 yield part, False
-            elif part.sign == "~":
-                yield from wrong[part.key]
             elif part.sign:
-                continue
+                yield from wrong[part.key] if part.sign == "~" else ()
             elif part.base == CLAUSE:
-                if part.key in self.clauses:
-                    yield from self.clauses[part.key].pieces()
+                yield from self.clauses[part.key].pieces() if part.key in self.clauses else ()
             elif part.base == "T":
                 unplaced = part.options & (UNPLACED | {"bare"}) or self._owns(number)
                 with_place = not unplaced and part.key not in placed
@@ -254,7 +237,7 @@ class Drawing:
 
     def _word(self, slot: Slot, number: int) -> str:
         if slot.base == "P":
-            return self._place(self.targets[slot.key].position or (0, 0))
+            return self._place(self._place_of(slot.key))
         if slot.base == "ID":
             return self.targets[slot.key].text
         value, (joint, after) = self.values[slot.key], (*self.parts[number + 1 :], "", "")[:2]
@@ -274,9 +257,7 @@ class Drawing:
         return position(point, self.rng, self.form).text
 
     def _mention(self, target: Target, slot: Slot, *, with_place: bool = False) -> list[PIECE]:
-        """The target as it is spoken of; ordinary words are no values, so that they can be
-        mistyped.
-        """
+        """The target as it is spoken of; ordinary words are no values: they can be mistyped."""
         text, options = target.description or target.text, slot.options
         if "nouns" in options:
             return [(plural(target.noun), False)]
@@ -288,11 +269,8 @@ class Drawing:
         named = f"the {text}" if target.article and "bare" not in options else text
         if not with_place or target.position is None:
             return [(named, kept)]
-        form, place = (
-            pick(DOUBTS if target.doubtful else PLACED, self.rng),
-            self._place(target.position),
-        )
-        before, _brace, after = form.partition("{}")
+        form = pick(DOUBTS if target.doubtful else PLACED, self.rng)
+        place, (before, _brace, after) = self._place(target.position), form.partition("{}")
         if before.endswith("(") and place[0] in "[(":
             before, after = " at ", ""
         return [(named, kept), (before, False), (place, True), (after, False)]
@@ -303,62 +281,44 @@ class Drawing:
         """What is asked for, in the order of execution."""
         return [self._intent(line) for line in self.lines]
 
-    def remarks(self) -> tuple[list[str], list[str]]:
-        """The template's own constraints and assumptions, as the plan holds them."""
-        constraints, assumptions = (
-            [self._remark(nodes) for nodes in remarks] for remarks in self.template.remarks
-        )
-        return constraints, assumptions
+    def remarks(self) -> list[list[str]]:
+        """The template's own constraints, and its assumptions, as the plan holds them."""
+        texts = ([self._filled(nodes) for nodes in group] for group in self.template.remarks)
+        return [[f"{one[0].upper()}{one[1:].rstrip('.')}." for one in group] for group in texts]
 
     def _intent(self, line: Line) -> Intent:
         if line.task is None:
             return Intent(self.vocabulary.task[self.vocabulary.transit], home=True)
-        keys = [
-            key
-            for base in OBJECTS
-            for key in line.objects
-            if base_of(key) == base and (base != "P" or key in self.said)
-        ]
-        if keys and keys[0] not in self.targets:
-            raise TemplateError(
-                f"{line.task.title} needs {{{keys[0]}}}, which one alternative lacks"
-            )
-        target = self.targets[keys[0]] if keys else None
+        said = (key for key in line.objects if base_of(key) != "P" or key in self.said)
+        key = min(said, key=lambda one: OBJECTS.index(base_of(one)), default=None)
+        if key and key not in self.targets:
+            raise TemplateError(f"{line.task.title} needs {{{key}}}, which one alternative lacks")
         part = self._filled(line.part) if line.part else ""
+        target = self.targets[key] if key else None
         return Intent(line.task, target, self._parameters(line, line.task), part=part)
 
     def _parameters(self, line: Line, task: Task) -> dict[str, Any]:
         """The parameters that are said, in the order of the definition."""
         found: dict[str, Any] = {}
-        for fill in line.fills:
-            name, value = fill.parameter.name, fill.value
-            if fill.slot in self.targets:
-                value = self.targets[fill.slot].description
-            elif fill.slot in self.values and fill.slot in self.said:
-                value = self.values[fill.slot].value
-            if value is None:
-                continue
-            if fill.parameter.type == "texts":
-                found.setdefault(name, []).append(value)
-            else:
-                found.setdefault(name, value)
+        for parameter, slot, value in line.fills:
+            if slot in self.targets:
+                value = self.targets[slot].description
+            elif slot in self.values and slot in self.said:
+                value = self.values[slot].value
+            if value is not None and parameter.type == "texts":
+                found.setdefault(parameter.name, []).append(value)
+            elif value is not None:
+                found.setdefault(parameter.name, value)
         return {name: found[name] for name in task.by_name if name in found}
-
-    def _remark(self, nodes: Nodes) -> str:
-        """A remark as the plan holds it: a sentence."""
-        text = self._filled(nodes)
-        return f"{text[0].upper()}{text[1:].rstrip('.')}."
 
     def _filled(self, nodes: Nodes) -> str:
         """A text of the plan with what its slots stand for."""
-        return "".join(
-            part if isinstance(part, str) else self._named(part)
-            for part in choose(nodes, self.rng, [])
-        )
+        parts = choose(nodes, self.rng, [])
+        return "".join(part if isinstance(part, str) else self._named(part) for part in parts)
 
     def _named(self, slot: Slot) -> str:
         if target := self.targets.get(slot.key):
-            return point_text(target.position or (0, 0)) if slot.base == "P" else target.name
+            return point_text(self._place_of(slot.key)) if slot.base == "P" else target.name
         if value := self.values.get(slot.key):
             return str(value.value) if slot.base in self.words else value.text
         raise TemplateError(f"a remark needs {{{slot.key}}}, which one alternative lacks")

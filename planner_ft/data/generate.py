@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import itertools
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -48,9 +49,7 @@ Messages = Callable[[Level, Record, Vocabulary], list[dict[str, str]]]
 
 @dataclass(frozen=True)
 class GenerationSettings:
-    """What to generate. A count of None is the published one; `source` is the folder of the curated
-    mission set.
-    """
+    """What to generate. None is the published count; `source` the folder of the curated set."""
 
     level: str = "all"
     out: Path = Path("data")
@@ -89,9 +88,7 @@ class GenerationSettings:
 
 @dataclass
 class Generated:
-    """The result for one level: where it lies, records by split, whether it was written or found up
-    to date, seconds by stage.
-    """
+    """One level's result: its folder, records by split, whether it is new, seconds by stage."""
 
     level: Level
     folder: Path
@@ -118,11 +115,9 @@ def generate(
     sets: list[str] = [
         level for level in settings.levels if level == "task" or not settings.synthetic or curated
     ]
+    sets += [SYNTHETIC] if settings.synthetic else []
     chat = messages if settings.chat else None
-    made = [
-        _make(name, settings, vocabulary, progress, chat)
-        for name in (*sets, *([SYNTHETIC] if settings.synthetic else []))
-    ]
+    made = [_make(name, settings, vocabulary, progress, chat) for name in sets]
     started = time.perf_counter()
     written = write_folders([folder for _result, folder in made], overwrite=settings.overwrite)
     results = [result for result, _folder in made]
@@ -142,18 +137,22 @@ def _make(
     """One set: "mission", "task" or the synthetic missions."""
     level: Level = "task" if name == "task" else "mission"
     result = Generated(level, settings.out / name, {})
-    clock = _Clock(result.seconds)
+    times, stages = [time.perf_counter()], list[str]()
+
+    def timed(stage: str) -> None:
+        times.append(time.perf_counter())
+        stages.append(stage)
+
     source = find_source(settings.source, vocabulary) if name == "mission" else None
     if source is None:
-        splits = _sampled(name, settings, vocabulary, progress)
-        clock.stop("sampling and validation")
+        splits, seed = _sampled(name, settings, vocabulary, progress), settings.seed
+        timed("sampling and validation")
     else:
-        ours = settings.source is None or vocabulary.name == DEFAULT
+        ours, seed = settings.source is None or vocabulary.name == DEFAULT, None
         audit = vocabulary.bundled and ours
         splits = curated_splits(source, settings.counts("mission"), vocabulary, audit=audit)
-        clock.stop("validation and audit")
+        timed("validation and audit")
     result.counts = {split: len(records) for split, records in splits.items()}
-    seed = settings.seed if source is None else None
     texts = {
         f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records)
         for split, records in splits.items()
@@ -162,17 +161,25 @@ def _make(
     if name != SYNTHETIC:
         leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
         texts["leakage.json"] = indented_json(leakage)
-        clock.stop("leakage report")
+        timed("leakage report")
     written = source / ABOUT if source else None
     labelling = read_text(written).strip() if written and written.is_file() else ""
     about = level, splits, vocabulary, leakage, seed, labelling
     texts["README.md"] = dataset_card(*about, chat=messages is not None)
-    if messages is not None:
-        for split, records in splits.items():
-            texts[f"chat/{split}.jsonl"] = _lines(
-                _chat_line(record["id"], messages(level, record, vocabulary)) for record in records
+    for split, records in splits.items():
+        if messages is None:
+            break
+        chats = [(record["id"], messages(level, record, vocabulary)) for record in records]
+        texts[f"chat/{split}.jsonl"] = _lines(
+            # For other trainers: all messages, and the answer apart from what comes before it.
+            compact_json(
+                {"id": id_, "messages": chat, "prompt": chat[:-1], "completion": chat[-1:]}
             )
-    clock.stop("card and serialisation")
+            for id_, chat in chats
+        )
+    timed("card and serialisation")
+    starts = zip(stages, itertools.pairwise(times), strict=True)
+    result.seconds = {stage: end - start for stage, (start, end) in starts}
     configuration: dict[str, Any] = {
         "level": level,
         "counts": result.counts,
@@ -195,10 +202,9 @@ def _sampled(
     name: str, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
-    defaults = DEFAULT_COUNTS["task"]
+    synthetic, defaults = name == SYNTHETIC, DEFAULT_COUNTS["task"]
     asked: dict[Any, int | None] = settings.counts("task")
-    if name == SYNTHETIC:
-        asked = {"train": settings.synthetic}
+    asked = {"train": settings.synthetic} if synthetic else asked
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():
@@ -206,11 +212,11 @@ def _sampled(
             records = splits[split] = []
             samples = (
                 sample_missions(settings.seed, count, vocabulary)
-                if name == SYNTHETIC
+                if synthetic
                 else sample_tasks(vocabulary, settings.seed, count, split)
             )
             for record in samples:
-                if name == SYNTHETIC and (
+                if synthetic and (
                     found := plan_problems("mission", record["expected"], vocabulary, strict=True)
                 ):
                     raise PlannerError(f"--synthetic: {record['family']}: {found[0]}")
@@ -222,25 +228,5 @@ def _sampled(
     return splits
 
 
-def _chat_line(name: str, messages: list[dict[str, str]]) -> str:
-    """A record for other trainers: all messages, and the answer apart from what comes before it."""
-    *prompt, answer = messages
-    chat = {"id": name, "messages": messages, "prompt": prompt, "completion": [answer]}
-    return compact_json(chat)
-
-
 def _lines(lines: Iterable[str]) -> str:
     return "".join(f"{line}\n" for line in lines)
-
-
-class _Clock:
-    """Writes down how long each stage took."""
-
-    def __init__(self, seconds: dict[str, float]) -> None:
-        self.seconds = seconds
-        self.started = time.perf_counter()
-
-    def stop(self, stage: str) -> None:
-        now = time.perf_counter()
-        self.seconds[stage] = now - self.started
-        self.started = now

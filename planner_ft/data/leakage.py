@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,13 @@ MEMORY_TEST = 0.8
 """Share of exact name sequences from which a split is called a memory test."""
 ROWS = 256
 """Prompts that are compared at a time."""
+
+METHOD = {
+    "shingles": "word pairs, lower case",
+    "near": NEAR,
+    "masked": "numbers and names replaced by a placeholder",
+    "baseline": "most similar training prompt, TF-IDF of words and word pairs, cosine",
+}
 
 Records = Sequence[Mapping[str, Any]]
 Shingles = frozenset[tuple[str, str]]
@@ -51,36 +58,29 @@ def leakage_report(
     }
     progress("near duplicates")
     near, near_masked = _near_pairs(written), _near_pairs(masked)
-    overlaps = [
-        {
+    overlaps = []
+    for (second, first), pairs in near.items():
+        places = itertools.islice(pairs.items(), 5)
+        overlap = {
             "split": second,
             "other": first,
             "exact": _shared(written[second], written[first]),
-            "near": len(near[second, first]),
+            "near": len(pairs),
             "exact_masked": _shared(masked[second], masked[first]),
             "near_masked": len(near_masked[second, first]),
             "families": len(families[second] & families[first]),
             "examples": [
                 (str(splits[second][here]["id"]), str(splits[first][there]["id"]))
-                for here, there in list(near[second, first].items())[:5]
+                for here, there in places
             ],
         }
-        for second, first in near
-    ]
+        overlaps.append(overlap)
     progress("nearest-neighbour baseline")
-    baselines = [
-        nearest_neighbour(level, name, splits["train"], splits[name])
-        for name in splits
-        if name != "train"
-    ]
+    others = ((name, records) for name, records in splits.items() if name != "train")
+    baselines = [nearest_neighbour(level, name, splits["train"], other) for name, other in others]
     return {
         "level": level,
-        "method": {
-            "shingles": "word pairs, lower case",
-            "near": NEAR,
-            "masked": "numbers and names replaced by a placeholder",
-            "baseline": "most similar training prompt, TF-IDF of words and word pairs, cosine",
-        },
+        "method": METHOD,
         "counts": {name: len(records) for name, records in splits.items()},
         "duplicates_within": {
             name: len(texts) - len(set(texts)) for name, texts in written.items()
@@ -92,26 +92,19 @@ def leakage_report(
 
 
 def near_duplicate(prompt: str, records: Records) -> str | None:
-    """The id of the first record whose prompt, as written or masked, is that one or nearly so (see
-    NEAR); None where none is.
-    """
+    """The id of the first record whose prompt, or its phrasing, is (nearly) that one; or None."""
     wanted = [_shingles(text) for text in (prompt, mask(prompt))]
     for record in records:
         text = str(record["prompt"])
-        found = [_shingles(other) for other in (text, mask(text))]
-        if any(jaccard(*pair) >= NEAR for pair in zip(wanted, found, strict=True)):
-            return str(record["id"])
+        for one, other in zip(wanted, map(_shingles, (text, mask(text))), strict=True):
+            if len(one & other) >= NEAR * len(one | other):
+                return str(record["id"])
     return None
 
 
 def input_digest(text: str) -> str:
     """What two inputs share that say the same: a digest of their words and numbers."""
     return sha256_text(" ".join(shingle_words(text)))[:16]
-
-
-def jaccard(first: Shingles, second: Shingles) -> float:
-    """Size of the intersection over size of the union."""
-    return len(first & second) / len(first | second)
 
 
 def _shared(texts: Sequence[str], others: Sequence[str]) -> int:
@@ -121,13 +114,6 @@ def _shared(texts: Sequence[str], others: Sequence[str]) -> int:
 
 def _shingles(text: str) -> Shingles:
     return frozenset(itertools.pairwise(["^", *shingle_words(text), "$"]))
-
-
-def _counter(analyzer: Callable[[Any], Iterable[Any]], kind: str = "CountVectorizer") -> Any:
-    """A vectorizer of scikit-learn (which has no types), loaded when it is needed."""
-    from sklearn.feature_extraction import text
-
-    return getattr(text, kind)(analyzer=analyzer)
 
 
 def _most_similar(
@@ -146,25 +132,22 @@ def _most_similar(
 
 
 def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], dict[int, int]]:
-    """For each pair of splits (later, earlier): index of a text to the index of its most similar
-    near duplicate.
-    """
-    counter = _counter(_shingles)
+    """By (later split, earlier one): a text's place to that of its most similar near duplicate."""
+    from sklearn.feature_extraction.text import CountVectorizer
+
+    counter: Any = CountVectorizer(analyzer=_shingles)
     counter.fit(itertools.chain(*splits.values()))
     sets = {name: counter.transform(texts) for name, texts in splits.items()}
-    return {
-        (second, first): _matches(sets[second], sets[first])
-        for place, second in enumerate(splits)
-        for first in list(splits)[:place]
-    }
+    found: dict[tuple[str, str], dict[int, int]] = {}
+    for second, first in ((b, a) for place, b in enumerate(splits) for a in [*splits][:place]):
+        counts = [np.diff(sets[name].indptr) for name in (second, first)]
 
+        def similar(shared: Any, place: int, counts: list[Any] = counts) -> Any:
+            return shared / (counts[0][place] + counts[1] - shared)
 
-def _matches(queries: Matrix, documents: Matrix) -> dict[int, int]:
-    sizes, lengths = np.diff(documents.indptr), np.diff(queries.indptr)
-    found = _most_similar(
-        queries, documents, lambda shared, place: shared / (lengths[place] + sizes - shared)
-    )
-    return {place: best for place, (best, similar) in enumerate(found) if similar >= NEAR}
+        near = enumerate(_most_similar(sets[second], sets[first], similar))
+        found[second, first] = {here: there for here, (there, like) in near if like >= NEAR}
+    return found
 
 
 def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -> dict[str, Any]:
@@ -172,7 +155,9 @@ def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -
     prompt: mean F1 of the name sets, shares of exact name sequences and of exact plans, and the
     median cosine similarity to that prompt.
     """
-    weights = _counter(_terms, "TfidfVectorizer")
+    from sklearn.feature_extraction.text import TfidfVectorizer
+
+    weights: Any = TfidfVectorizer(analyzer=_terms)
     documents = weights.fit_transform(train)
     found = list(_most_similar(weights.transform(test), documents, lambda cosines, _place: cosines))
     scores = []
@@ -195,9 +180,7 @@ def set_f1(answered: Sequence[str], expected: Sequence[str]) -> float:
 
 
 def _terms(record: Mapping[str, Any]) -> list[str]:
-    """Words and word pairs of what the model is given: at task level the title and the parameters
-    belong to it.
-    """
+    """Words and word pairs of what the model is given, at task level with title and parameters."""
     text = str(record["prompt"])
     if "task" in record:
         text = f"{record['task']} {compact_json(record.get('parameters', {}))} {text}"

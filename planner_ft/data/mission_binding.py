@@ -3,21 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
-from planner_ft.data.templates.grammar import (
-    Argument,
-    Call,
-    Nodes,
-    Slot,
-    Step,
-    TemplateError,
-    all_slots,
-    always,
-    base_of,
-    parse_text,
-)
+from planner_ft.data.templates import grammar
+from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, all_slots, base_of
 from planner_ft.data.templates.records import Template
 from planner_ft.data.wordlists import WordLists
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
@@ -26,10 +16,11 @@ OBJECTS = ("ID", "T", "P")
 CLAUSE, IT = "C", "it"
 """Slots for a clause, and for the target that a clause takes up again."""
 HOME = "Home"
+Owners = dict[str, tuple[Task, Parameter]]
+"""The parameter whose values a slot has."""
 
 
-@dataclass(frozen=True)
-class Fill:
+class Fill(NamedTuple):
     """A parameter of a task and what fills it: a slot of the text or a literal value."""
 
     parameter: Parameter
@@ -37,96 +28,66 @@ class Fill:
     value: Any = None
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(NamedTuple):
     """A task of a template; `task` is None for the return home."""
 
     task: Task | None
     label: str
-    objects: tuple[str, ...] = ()
-    fills: tuple[Fill, ...] = ()
+    demands: tuple[Call, ...]
+    clauses: list[str]
+    objects: list[str]
+    fills: list[Fill]
     here: bool = False
     near: str = ""
     part: Nodes = ()
-    clauses: tuple[str, ...] = ()
-    demands: tuple[Call, ...] = ()
 
     def slots(self) -> set[str]:
         """The slots of the text that the task needs."""
-        parts = {slot.key for slot in all_slots(self.part)}
+        parts = (slot.key for slot in all_slots(self.part))
         filled = (fill.slot for fill in self.fills)
         return {self.near, *self.objects, *filled, *parts, *self.clauses} - {""}
 
 
-@dataclass(frozen=True)
-class Bound:
-    """A template for one vehicle: its tasks, the parameter whose values a slot has, the kinds of
-    its targets, and the position slot of a target or id that has one (`PerformOrbit T1 P1`).
+class Bound(NamedTuple):
+    """A template for one vehicle: its tasks, the owners of its values, the kinds of its targets,
+    and the position slot of a target or id that has one (`PerformOrbit T1 P1`).
     """
 
-    lines: tuple[Line, ...]
-    owners: dict[str, tuple[Task, Parameter]]
+    lines: list[Line]
+    owners: Owners
     kinds: dict[str, str]
-    places: dict[str, str]
+    places: Mapping[str, str]
 
 
 def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
     """A command for this vehicle; with its word lists. Raises TemplateError."""
-    every = list(all_slots(template.nodes))
-    slots = {slot.key for slot in every if slot.sign != "?"}
-    lines = tuple(_line(step, vocabulary, slots) for step in template.steps)
+    every = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
+    slots, surely = {slot.key for slot in every}, grammar.always(template.nodes)
+    lines = [_line(step, vocabulary, slots) for step in template.steps]
     for title in template.excluded:
         if title != HOME and title not in vocabulary.task:
             raise TemplateError(f"there is no task {title} to rule out")
-    surely = always(template.nodes)
-    for line in lines:
-        for key in line.objects if not line.label else ():
-            if base_of(key) == "T" and key not in surely:
-                raise TemplateError(f"{{{key}}} is needed, and not every alternative says it")
-    owners = {
-        fill.slot: (line.task, fill.parameter)
-        for line in reversed(lines)
-        for fill in reversed(line.fills)
-        if line.task
-    }
+    for key in (key for line in lines if not line.label for key in line.objects):
+        if base_of(key) == "T" and key not in surely:
+            raise TemplateError(f"{{{key}}} is needed, and not every alternative says it")
+    owners: Owners = {}
+    for task, fills in ((line.task, line.fills) for line in lines if line.task):
+        owners = {fill.slot: (task, fill.parameter) for fill in reversed(fills)} | owners
     for slot in every:
-        known = slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists
-        if not known and slot.sign != "?":
+        if not (slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists):
             owners[slot.key] = _owner(slot, vocabulary)
-    unused = {
-        str(argument.value)
-        for step in template.steps
-        for argument in step.call.arguments
-        if argument.kind == "unused"
-    }
-    places = {
-        key: place
-        for line in lines
-        for place in line.objects
-        if base_of(place) == "P"
-        for key in line.objects
-        if base_of(key) != "P"
-    }
+    arguments = itertools.chain(*(step.call.arguments for step in template.steps))
+    unused = {str(argument.value) for argument in arguments if argument.kind == "unused"}
     used = unused.union(*(line.slots() for line in lines))
-    return bound(template, lists, used, owners, lines, places)
+    return bound(template, lists, used, owners, lines)
 
 
 def bound(
-    template: Template,
-    lists: WordLists,
-    used: set[str],
-    owners: dict[str, tuple[Task, Parameter]],
-    lines: tuple[Line, ...] = (),
-    places: dict[str, str] | None = None,
+    template: Template, lists: WordLists, used: set[str], owners: Owners, lines: list[Line]
 ) -> Bound:
-    """A command or a clause whose plan needs the `used` slots, as far as text and plan agree.
-    Raises TemplateError.
-    """
-    every = list(all_slots(template.nodes))
-    slots = [slot for slot in every if slot.sign != "?"]
-    asked = {call.label for step in template.steps for call in step.calls() if call.label}
-    for name in asked ^ {slot.key for slot in every if slot.sign == "?"}:
-        raise TemplateError(f"the label ?{name} stands only in the text or only in the plan")
+    """A command or clause whose plan needs the `used` slots. Raises TemplateError."""
+    template.check_labels("plan")
+    slots = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
     used |= {slot.key for nodes in itertools.chain(*template.remarks) for slot in all_slots(nodes)}
     for key in sorted(used - {slot.key for slot in slots if not slot.sign}):
         raise TemplateError(f"{key} stands in the plan and not in the text")
@@ -141,62 +102,48 @@ def bound(
     for slot in slots:
         if not (slot.base in (*OBJECTS, CLAUSE, IT) or slot.key in owners or slot.base in lists):
             raise TemplateError(f"{{{slot.key}}} is no target, parameter, limit or word list")
-    return Bound(lines, owners, kinds, places or {})
+    pairs = itertools.chain(*(itertools.product(line.objects, repeat=2) for line in lines))
+    places = {key: at for at, key in pairs if base_of(at) == "P" != base_of(key)}
+    return Bound(lines, owners, kinds, places)
 
 
-def _line(step: Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
-    call = step.call
+def _line(step: grammar.Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
+    call, task = step.call, vocabulary.task.get(step.call.name)
     if step.filters or step.each:
         raise TemplateError(f"{call.name}: a task has no filters and nothing behind waypoints")
     for demand in step.perceptions:
         if demand.name not in vocabulary.skill:
             raise TemplateError(f"there is no skill {demand.name}")
+    line = Line(task, call.label, step.perceptions, [], [], [])
     if call.name == HOME:
-        clauses = [str(argument.value) for argument in call.arguments]
-        return Line(None, call.label, clauses=tuple(clauses), demands=step.perceptions)
-    task = vocabulary.task.get(call.name)
+        return line._replace(clauses=[str(argument.value) for argument in call.arguments])
     if task is None:
         raise TemplateError(f"there is no task {call.name}")
-    objects: list[str] = []
-    clauses = []
-    fills: list[Fill] = []
-    here, near = False, ""
-    part: Nodes = ()
     for argument in call.arguments:
-        value = str(argument.value)
+        name, value, base = argument.name, str(argument.value), base_of(str(argument.value))
         if argument.kind == "unused":
             continue
-        if argument.name == "near":
-            near = value
-        elif argument.name == "part":
-            part = parse_text(value if argument.kind == "literal" else f"{{{value}}}")
-        elif value == "here" and not argument.name:
-            here = True
-        elif not argument.name and base_of(value) in OBJECTS:
-            objects.append(value)
-        elif not argument.name and base_of(value) == CLAUSE:
-            clauses.append(value)
+        if name == "near":
+            line = line._replace(near=value)
+        elif name == "part":
+            text = value if argument.kind == "literal" else f"{{{value}}}"
+            line = line._replace(part=grammar.parse_text(text))
+        elif not name and value == "here":
+            line = line._replace(here=True)
+        elif not name and base in (*OBJECTS, CLAUSE):
+            (line.clauses if base == CLAUSE else line.objects).append(value)
         else:
-            fills.append(_fill(task, argument, keys))
-    if task.arrival != "none" and not objects and not here:
+            line.fills.append(_fill(task, argument, keys))
+    if task.arrival != "none" and not line.objects and not line.here:
         raise TemplateError(f"{call.name} has no place: T1, P1, or here")
-    if task.title == vocabulary.locate and not any(key[0] == "T" for key in objects):
+    if task.title == vocabulary.locate and not any(key[0] == "T" for key in line.objects):
         raise TemplateError(f"{call.name} needs a target, T1")
-    return Line(
-        task,
-        call.label,
-        tuple(objects),
-        tuple(fills),
-        here,
-        near,
-        part,
-        tuple(clauses),
-        step.perceptions,
-    )
+    return line
 
 
-def _fill(task: Task, argument: Argument, keys: set[str]) -> Fill:
-    name, value = argument.name or base_of(str(argument.value)), argument.value
+def _fill(task: Task, argument: grammar.Argument, keys: set[str]) -> Fill:
+    value = argument.value
+    name = argument.name or base_of(str(value))
     if name not in task.by_name:
         names = ", ".join(task.by_name) or "none"
         raise TemplateError(f"{task.title} has no parameter {name} (it has {names})")
@@ -205,7 +152,7 @@ def _fill(task: Task, argument: Argument, keys: set[str]) -> Fill:
         return Fill(task.by_name[name], value=int(value) if whole else value)
     if str(value) not in keys:
         raise TemplateError(f"{value} stands in the plan and not in the text")
-    return Fill(task.by_name[name], slot=str(value))
+    return Fill(task.by_name[name], str(value))
 
 
 def _owner(slot: Slot, vocabulary: Vocabulary) -> tuple[Task, Parameter]:

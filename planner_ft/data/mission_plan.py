@@ -7,16 +7,17 @@ NAME.missions.toml; so both hold for any vehicle.
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import digits
 from planner_ft.data.task.phrasebook import spaced
-from planner_ft.data.templates.grammar import Nodes, Slot, choose, parse_text
+from planner_ft.data.templates.grammar import Slot, choose, parse_text
 from planner_ft.facts.geometry import Point, tidy
 from planner_ft.vocabulary import Task, Vocabulary
+from planner_ft.vocabulary.plans import TASK_KEYS
 
 
 @dataclass(frozen=True)
@@ -97,12 +98,11 @@ def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
     intents = list(intents)
     locate, transit = vocabulary.task[vocabulary.locate], vocabulary.task[vocabulary.transit]
     described = next(item.name for item in locate.parameters if item.type == "text")
+    there = str(transit.position_parameter)
     plan: list[Planned] = []
     located: set[str] = set()
     on_site = (intent.target for intent in intents if intent.target and intent.target.on_site)
     here = next((target.key for target in on_site), None)
-
-    parameters: dict[str, Any]
 
     def place(target: Target) -> list[Any]:
         if target.position is None or target.key in located:
@@ -112,35 +112,31 @@ def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
     for intent in intents:
         task, target = intent.task, intent.target
         if intent.home:
-            plan.append(
-                Planned(transit, {str(transit.position_parameter): list(vocabulary.home)}, intent)
-            )
+            plan.append(Planned(transit, {there: list(vocabulary.home)}, intent))
             here = None
             continue
         asked = task.title == locate.title
         if target is not None and task.arrival != "none":
             if target.key not in located and (target.must_be_found or asked):
-                plan.append(
-                    Planned(locate, {described: target.description}, intent, inserted=not asked)
-                )
+                search: dict[str, Any] = {described: target.description}
+                plan.append(Planned(locate, search, intent, inserted=not asked))
                 located.add(target.key)
                 here = None
             if task.arrival == "transit" and here != target.key:
-                parameters = {str(transit.position_parameter): place(target)}
-                plan.append(Planned(transit, parameters, intent, inserted=True))
+                plan.append(Planned(transit, {there: place(target)}, intent, inserted=True))
         if asked:
             continue
-        parameters = {}
-        name = task.position_parameter
+        parameters: dict[str, Any] = {}
         if target is not None and target.identity is not None:
-            parameters |= {
+            parameters = {
                 item.name: target.identity for item in task.parameters if item.type == "id"
             }
-        if name and target is not None and (target.identity is None or target.position):
-            parameters[name] = place(target)
+        own = task.position_parameter
+        if own and target is not None and (target.identity is None or target.position):
+            parameters[own] = place(target)
         plan.append(Planned(task, parameters | dict(intent.parameters), intent))
         if task.arrival != "none":
-            leaves = task.leaves and task.position_parameter is not None
+            leaves = task.leaves and own is not None
             here = None if leaves else target.key if target is not None else here
         elif task.pattern != "hold":
             here = None
@@ -150,18 +146,13 @@ def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
 # ---------------------------------------------------------------- texts
 
 
-@functools.lru_cache(maxsize=1024)
-def _sentence(source: str) -> tuple[Nodes, frozenset[str]]:
-    """A sentence and the slots that it cannot do without."""
-    nodes = parse_text(source)
-    return nodes, frozenset(node.key for node in nodes if isinstance(node, Slot))
+_parsed = functools.lru_cache(maxsize=1024)(parse_text)
 
 
 def say(sources: Iterable[str], given: Mapping[str, str]) -> str | None:
     """The first sentence whose slots are all given; None without one."""
-    for source in sources:
-        nodes, needed = _sentence(source)
-        if needed <= given.keys():
+    for nodes in map(_parsed, sources):
+        if all(node.key in given for node in nodes if isinstance(node, Slot)):
             parts = choose(nodes, Random(0), [], frozenset(given))
             return "".join(part if isinstance(part, str) else given[part.key] for part in parts)
     return None
@@ -176,15 +167,9 @@ class PlanTexts:
 
     def plan(self, plan: list[Planned], notes: list[str], taken: list[str]) -> dict[str, Any]:
         """The plan as a record holds it, with the command's own remarks."""
+        values = ((one.task.title, one.parameters, self.task_prompt(one)) for one in plan)
         return {
-            "tasks": [
-                {
-                    "title": planned.task.title,
-                    "parameters": planned.parameters,
-                    "task_prompt": self.task_prompt(planned),
-                }
-                for planned in plan
-            ],
+            "tasks": [dict(zip(TASK_KEYS, of_task, strict=True)) for of_task in values],
             "assumptions": list(dict.fromkeys([*self._assumptions(plan), *taken])),
             "constraints": list(dict.fromkeys([*self._constraints(plan), *notes])),
         }
@@ -210,65 +195,54 @@ class PlanTexts:
         """What a sentence can say of a task."""
         task, target, part = planned.task, planned.intent.target, planned.intent.part
         given = {"at": "where the vehicle is", "of": "where the vehicle is"}
-        thing = self.tasks.get(task.title, {}).get("thing")
-        if thing:
+        if thing := self.tasks.get(task.title, {}).get("thing"):
             given["name"] = thing
         if target is not None:
-            given["place"] = target.place
             if target.description is not None or not thing:
                 given["name"] = target.name
-            given["at"] = f"at {target.place}"
-            own = f"the {part} of " if part else ""
-            given["thing"] = own + target.place
+            given |= {"place": target.place, "at": f"at {target.place}"}
+            given["thing"] = f"the {part} of {target.place}" if part else target.place
             given["of"] = f"{'of' if target.description else 'at'} {target.name}"
             if part:
                 given["of"] = f"of the {part} of {target.name}"
-            if target.whereabouts:
-                given["whereabouts"] = target.whereabouts
-            if target.position is not None:
-                given["whereabouts"] = f"around {point_text(target.position)}"
+            around = f"around {point_text(target.position)}" if target.position is not None else ""
+            if around or target.whereabouts:
+                given["whereabouts"] = around or target.whereabouts
         for name, value in planned.parameters.items():
-            type_ = task.by_name[name].type
-            if type_ == "position":
+            kind = task.by_name[name].type
+            if kind == "position":
                 unknown = value == list(self.vocabulary.unresolved)
                 given["position"] = "where it has been found" if unknown else point_text(value)
-                if unknown:
-                    given["found"] = "once it has been found"
-            elif type_ == "texts":
+                given |= {"found": "once it has been found"} if unknown else {}
+            elif kind == "texts":
                 given[name] = ", then ".join(f"the {item}" for item in value)
             else:
                 given[name] = str(value)
-            if type_ == "text" and not planned.inserted:
+            if kind == "text" and not planned.inserted:
                 same = target is not None and value == target.description
                 given["feature"] = given["name"] if same else f"the {value} {given['of']}"
-                if not same:
-                    given["part"] = str(value)
+                given |= {} if same else {"part": str(value)}
         return given
 
-    def _assumptions(self, plan: list[Planned]) -> list[str]:
-        """What the plan takes for granted: targets to be found, doubtful positions, docks to be
-        filled in, home.
-        """
-        found: list[str] = []
+    def _assumptions(self, plan: list[Planned]) -> Iterator[str]:
+        """What the plan takes for granted: targets to be found, doubtful positions, docks, home."""
         for planned in plan:
             target = planned.intent.target
             if planned.intent.home:
-                found.append(f"Home is {point_text(self.vocabulary.home)}.")
+                yield f"Home is {point_text(self.vocabulary.home)}."
             if target is None:
                 continue
             if planned.task.title == self.vocabulary.locate and target.position is None:
-                found.append(f"The position of {target.name} is unknown until it has been found.")
+                yield f"The position of {target.name} is unknown until it has been found."
             if target.doubtful and target.position is not None:
-                found.append(f"{point_text(target.position)} is taken as correct.")
+                yield f"{point_text(target.position)} is taken as correct."
             if target.on_site:
-                found.append(f"The vehicle lies at {target.name}.")
+                yield f"The vehicle lies at {target.name}."
             if target.spot and target.position is None:
-                found.append(f"The position of {target.name} is filled in before docking.")
-        return found
+                yield f"The position of {target.name} is filled in before docking."
 
-    def _constraints(self, plan: list[Planned]) -> list[str]:
+    def _constraints(self, plan: list[Planned]) -> Iterator[str]:
         """Which targets must be found before what is done with them."""
-        lines = []
         for index, planned in enumerate(plan):
             target = planned.intent.target
             if planned.task.title != self.vocabulary.locate or target is None:
@@ -277,8 +251,6 @@ class PlanTexts:
             use = next((later for later in uses if not later.inserted), None)
             if use is not None:
                 title = use.task.title
-                default = [f"{spaced(title)} begins"]
-                before = self.tasks.get(title, {}).get("before", default)
+                before = self.tasks.get(title, {}).get("before", [f"{spaced(title)} begins"])
                 name = target.name[0].upper() + target.name[1:]
-                lines.append(f"{name} must be found before {say(before, self._given(use))}.")
-        return lines
+                yield f"{name} must be found before {say(before, self._given(use))}."

@@ -35,9 +35,7 @@ from planner_ft.vocabulary.plans import value_problem
 FOREIGN = 0.03
 """Share of lengths and speeds in feet and knots."""
 CLAUSES, HOSTS, TWO = 0.3, 0.35, 0.25
-"""Shares of commands with clauses; among these, of templates made for them and of two templates in
-one command.
-"""
+"""Shares of commands with clauses; of these, of templates made for them and of two in one."""
 HOST, HOSTED = "{C", "clauses-"
 """A place for a clause, and the ids of the templates of this subject, which are drawn often."""
 ORDERING = ("first", "before", "after", "last", "then", "finally", "end", "finish", "next", "again")
@@ -107,23 +105,19 @@ class MissionSampler:
             elif self.short and rng.random() < TWO:
                 made = [pick(self.short, rng), pick(self.short, rng)]
         command = self.compose(made, rng, clauses)
-        steps = itertools.chain(*(template.steps for template in made))
-        literal = frozenset(
-            word
-            for step in steps
-            for argument in step.call.arguments
-            if argument.kind == "literal"
-            for word in str(argument.value).split()
-        )
-        expected = command.expected
-        values = [value for task in expected["tasks"] for value in task["parameters"].values()]
-        shout = not any(str(value) != str(value).lower() for value in values)
+        calls = [step.call for template in made for step in template.steps]
+        arguments = itertools.chain(*(call.arguments for call in calls))
+        texts = (str(one.value) for one in arguments if one.kind == "literal")
+        literal = frozenset(word for text in texts for word in text.split())
+        tasks = command.expected["tasks"]
+        values = [str(value) for task in tasks for value in task["parameters"].values()]
+        shout = all(value == value.lower() for value in values)
         record = {
             "id": name,
             "family": f"synthetic-{made[0].group.rpartition('-')[0]}",
             "prompt": plain(noisy(command.text, rng, keep=literal, shout=shout)),
-            "expected": expected,
-            "tags": [] if expected["tasks"] else ["rule.empty"],
+            "expected": command.expected,
+            "tags": [] if tasks else ["rule.empty"],
         }
         return record, command.beside
 
@@ -138,13 +132,6 @@ class MissionSampler:
             return Composer(self, made, rng, records).command(clauses)
         except TemplateError as error:
             raise (only or made[0]).error(error) from None
-
-    def draw(self, template: Template, rng: Random) -> tuple[str, dict[str, Any]]:
-        """A command of the template alone, its values marked, and its plan. Raises PlannerError for
-        a template that does not fit the vehicle.
-        """
-        command = self.compose([template], rng)
-        return command.text, command.expected
 
     def bound(self, template: Template) -> Bound:
         """The template for this vehicle. Raises TemplateError."""
@@ -168,23 +155,23 @@ class MissionSampler:
         measure = parameter.unit if parameter.type == "number" else None
         if measure in ("m", "m/s") and rng.random() < FOREIGN:
             foreign = knots(rng) if measure == "m/s" else feet(rng, low, high)
-        if foreign and value_problem(foreign.value, parameter) is None:
-            return foreign
-        return draw(rng)
+        usable = foreign is not None and value_problem(foreign.value, parameter) is None
+        return foreign if foreign and usable else draw(rng)
 
 
 def _is_short(template: Template) -> bool:
     """Whether a template asks for one thing, so that another one can follow it."""
-    calls = [step.call for step in template.steps]
-    lone = len(calls) == 1 and calls[0].name != HOME and not calls[0].label
-    plain_ = not (template.excluded or template.constraints or template.assumptions)
+    call = template.steps[0].call if len(template.steps) == 1 else None
+    if call is None or call.name == HOME or call.label:
+        return False
     text = template.text
-    return (
-        lone
-        and plain_
-        and len(text) < 110
-        and HOST not in text
-        and "{~" not in text
-        and not any(argument.value == "here" for argument in calls[0].arguments)
-        and not any(word in text.lower() for word in ORDERING)
+    return not (
+        template.excluded
+        or template.constraints
+        or template.assumptions
+        or len(text) >= 110
+        or HOST in text
+        or "{~" in text
+        or any(argument.value == "here" for argument in call.arguments)
+        or any(word in text.lower() for word in ORDERING)
     )

@@ -15,6 +15,7 @@ from typing import Any
 from planner_ft.data.templates.render import PIECE, VALUE_CLOSE, VALUE_OPEN, segments
 from planner_ft.support.files import read_json
 
+MARKS = ",.;:!?"
 Change = Callable[[list[PIECE], Random], list[PIECE]]
 
 
@@ -43,12 +44,9 @@ def _split(text: str, keep: frozenset[str]) -> list[PIECE]:
     for segment, value in segments(text):
         if value:
             pieces.append((VALUE_OPEN + segment + VALUE_CLOSE, True))
-            continue
-        for number, word in enumerate(segment.split(" ")):
-            if number:
-                pieces.append((" ", False))
-            if word:
-                pieces.append((word, word.strip(",.;:!?") in keep))
+        else:
+            words = [piece for word in segment.split(" ") for piece in (" ", word)][1:]
+            pieces += [(word, word.strip(MARKS) in keep) for word in words if word]
     return pieces
 
 
@@ -56,111 +54,102 @@ def _joined(pieces: list[PIECE]) -> str:
     return "".join(piece for piece, _stays in pieces).strip(" ")
 
 
-def _free(piece: PIECE) -> bool:
+def _each(pieces: list[PIECE], change: Callable[[str], str]) -> list[PIECE]:
+    """The pieces, those changed that need not stay."""
+    return [(word if stays else change(word), stays) for word, stays in pieces]
+
+
+def _free(word: str) -> bool:
     """Whether a word may be mistyped: an ordinary one in small letters."""
-    word = piece[0].strip(",.;:!?")
-    return (
-        not piece[1]
-        and len(word) > 3
-        and word.isalpha()
-        and word.islower()
-        and word not in _lists()["kept"]
-    )
+    bare = word.strip(MARKS)
+    return len(bare) > 3 and bare.isalpha() and bare.islower() and bare not in _lists()["kept"]
 
 
 def mistype(word: str, rng: Random) -> str:
     """The word of four letters or more with one slip of the fingers; first letter kept."""
     roll, index = rng.random(), rng.randint(1, len(word) - 2)
+    before, letter, after = word[:index], word[index], word[index + 1 :]
     if roll < 0.4:
-        return word[:index] + word[index + 1] + word[index] + word[index + 2 :]
+        return before + after[0] + letter + after[1:]
     if roll < 0.62:
-        return word[:index] + word[index + 1 :]
+        return before + after
     if roll < 0.78:
-        return word[:index] + word[index] + word[index:]
-    near = _lists()["keys"].get(word[index]) if roll < 0.92 else None
-    if near:
-        return word[:index] + str(rng.choice(near)) + word[index + 1 :]
-    return word[: index + 1] + rng.choice("aeiou") + word[index + 1 :]
+        return before + letter + letter + after
+    near = _lists()["keys"].get(letter) if roll < 0.92 else None
+    return before + (rng.choice(near) if near else letter + rng.choice("aeiou")) + after
 
 
-def _mistyped(piece: PIECE, rng: Random) -> PIECE:
-    core = piece[0].rstrip(",.;:!?")
-    return mistype(core, rng) + piece[0][len(core) :], piece[1]
+def _mistyped(word: str, rng: Random) -> str:
+    core = word.rstrip(MARKS)
+    return mistype(core, rng) + word[len(core) :]
 
 
 def slipped(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """With one or two words mistyped."""
     for _ in range(1 if rng.random() < 0.65 else 2):
-        free = [number for number, piece in enumerate(pieces) if _free(piece)]
+        free = [at for at, (word, stays) in enumerate(pieces) if not stays and _free(word)]
         if free:
             number = rng.choice(free)
-            pieces[number] = _mistyped(pieces[number], rng)
+            pieces[number] = _mistyped(pieces[number][0], rng), False
     return pieces
 
 
 def garbled(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """With every second to fifth word mistyped."""
     rate = rng.choice((0.2, 0.3, 0.45))
-    changed = [
-        _mistyped(piece, rng) if _free(piece) and rng.random() < rate else piece for piece in pieces
-    ]
+    changed = _each(
+        pieces, lambda word: _mistyped(word, rng) if _free(word) and rng.random() < rate else word
+    )
     return small(changed, rng) if rng.random() < 0.5 else changed
 
 
 def shortened(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """As it is thumbed into a telephone."""
     rate, short = rng.choice((0.3, 0.6, 0.9)), _lists()["short"]
-    changed = [
-        (short[word], stays)
-        if not stays and word in short and rng.random() < rate
-        else (word, stays)
-        for word, stays in pieces
-    ]
+    changed = _each(
+        pieces, lambda word: short[word] if word in short and rng.random() < rate else word
+    )
     return small(changed, rng) if rng.random() < 0.6 else changed
 
 
 def small(pieces: list[PIECE], _rng: Random) -> list[PIECE]:
     """In small letters and without the last stop; values keep their capitals."""
-    changed = [(word if stays else word.lower(), stays) for word, stays in pieces]
-    word, stays = changed[-1]
-    return [*changed[:-1], (word if stays else word.rstrip("."), stays)]
+    return [
+        *_each(pieces[:-1], str.lower),
+        *_each(pieces[-1:], lambda word: word.lower().rstrip(".")),
+    ]
 
 
 def careless(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """Without its first capital, its last stop or both."""
-    if rng.random() < 0.6 and not pieces[0][1]:
-        pieces[0] = (pieces[0][0][0].lower() + pieces[0][0][1:], False)
-    word, stays = pieces[-1]
-    if not stays and rng.random() < 0.7:
-        pieces[-1] = (word.rstrip("."), False)
+    if rng.random() < 0.6:
+        pieces[:1] = _each(pieces[:1], lambda word: word[0].lower() + word[1:])
+    if not pieces[-1][1] and rng.random() < 0.7:
+        pieces[-1] = pieces[-1][0].rstrip("."), False
     return pieces
 
 
 def dictated(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """Without marks and capitals."""
-    return [(word if stays else word.strip(",.;:?!"), stays) for word, stays in small(pieces, rng)]
+    return _each(small(pieces, rng), lambda word: word.strip(MARKS))
 
 
 def telegraphed(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """Without articles and "please"; with STOP for the stops now and then."""
     changed: list[PIECE] = []
-    stops = rng.random() < 0.2
+    stops, little = rng.random() < 0.2, _lists()["little"]
     for word, stays in pieces:
-        if not stays and word.lower() in _lists()["little"]:
-            continue
-        if word == " " and (not changed or changed[-1][0] == " "):
-            continue
-        full = stops and not stays and len(word) > 1 and word[-1] in ".;!?"
-        changed.append((f"{word[:-1]} STOP", False) if full else (word, stays))
-    if changed and not changed[0][1]:
-        changed[0] = (changed[0][0][:1].upper() + changed[0][0][1:], False)
+        doubled = word == " " and (not changed or changed[-1][0] == " ")
+        if not doubled and (stays or word.lower() not in little):
+            full = stops and not stays and len(word) > 1 and word[-1] in ".;!?"
+            changed.append((f"{word[:-1]} STOP", False) if full else (word, stays))
+    changed[:1] = _each(changed[:1], lambda word: word[:1].upper() + word[1:])
     return changed or pieces
 
 
 def greeted(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """With a greeting ahead, unless there is one."""
-    lists = _lists()
-    first, stays = pieces[0]
+    lists, (first, stays) = _lists(), pieces[0]
     low = first.strip(",.!:;").lower()
     if low in lists["greeted"]:
         return pieces

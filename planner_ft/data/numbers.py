@@ -20,9 +20,8 @@ def words(text: str) -> tuple[str, ...]:
     return tuple(text.split())
 
 
-_SAID: dict[str, dict[str, Any]] = tomllib.loads(
-    Path(__file__).with_suffix(".toml").read_text("utf-8")
-)
+_FILE = Path(__file__).with_suffix(".toml")
+_SAID: dict[str, dict[str, Any]] = tomllib.loads(_FILE.read_text("utf-8"))
 ONES = words(
     "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen"
     " fifteen sixteen seventeen eighteen nineteen"
@@ -32,9 +31,7 @@ COMPASS = {45 * number: name for number, name in enumerate(POINTS[::2])}
 ENDINGS: dict[str, list[str]] = _SAID["endings"]
 WRITTEN = tuple(form for form, often in _SAID["written"].items() for _ in range(often))
 """Forms of a written position, the usual ones more often."""
-CORNERS: list[str] = _SAID["polygon"]["corners"]
-JOINTS: list[str] = _SAID["polygon"]["joints"]
-BOXES: list[str] = _SAID["polygon"]["boxes"]
+CORNERS, JOINTS, BOXES = (list(_SAID["polygon"][key]) for key in ("corners", "joints", "boxes"))
 
 
 def _wordings(table: str, value: float) -> list[str]:
@@ -112,8 +109,7 @@ def many(number: float, unit: str) -> str:
 
 def length(value: float, rng: Random) -> Value:
     """Metres: "12 m", "twelve metres", "1.5 km", "40 feet"; short: "12-metre"."""
-    figure = digits(value)
-    spelt = figure
+    spelt = figure = digits(value)
     if isinstance(value, int) and 0 < value <= 20 and rng.random() < 0.15:
         spelt = in_words(value)
     short = f"{spelt}-metre" if spelt != figure or rng.random() < 0.6 else f"{figure} m"
@@ -125,13 +121,9 @@ def length(value: float, rng: Random) -> Value:
         unit = "km" if rng.random() < 0.6 else "kilometres"
         return Value(value, f"{digits(value / 1000)} {unit}", short)
     roll = rng.random()
-    if roll < 0.5:
-        text = f"{figure} m"
-    elif roll < 0.58:
-        text = f"{figure}m"
-    else:
-        text = _some(value, "metre" if roll < 0.95 else "meter", rng)
-    return Value(value, text, short)
+    if roll < 0.58:
+        return Value(value, f"{figure} m" if roll < 0.5 else f"{figure}m", short)
+    return Value(value, _some(value, "metre" if roll < 0.95 else "meter", rng), short)
 
 
 def feet(rng: Random, low: float, high: float) -> Value | None:
@@ -139,7 +131,7 @@ def feet(rng: Random, low: float, high: float) -> Value | None:
     fitting = [n for n in range(10, 501, 5) if low <= n * 0.3048 <= high]
     if not fitting:
         return None
-    number = fitting[int(rng.random() * len(fitting))]
+    number = pick(fitting, rng)
     text = f"{number} {'ft' if rng.random() < 0.5 else 'feet'}"
     return Value(tidy(round(number * 0.3048, 2)), text, f"{number}-foot")
 
@@ -207,9 +199,7 @@ def angle(value: float, rng: Random) -> Value:
 
 
 def rotation(value: float, rng: Random) -> Value:
-    """A signed angle, clockwise positive: "15 degrees to the left"; short: "-15 degrees"; noun: "a
-    half circle to port".
-    """
+    """A signed angle, clockwise positive: "15 degrees to the left"; short: "-15 degrees"."""
     size = abs(value)
     unit = "°" if rng.random() < 0.1 else f" {many(size, 'degree')}"
     way = pick(ENDINGS["right" if value > 0 else "left"], rng)
@@ -230,8 +220,8 @@ def rotation(value: float, rng: Random) -> Value:
 
 def speed(value: float, rng: Random) -> Value:
     """Metres a second: "1.5 m/s", "half a metre per second"; short: "1.5 m/s"."""
-    figure, short = digits(value), f"{digits(value)} m/s"
-    roll = rng.random()
+    figure, roll = digits(value), rng.random()
+    short = f"{figure} m/s"
     if value == 0.5 and roll < 0.3:
         return Value(value, "half a metre per second", short)
     if roll < 0.7:
@@ -242,45 +232,32 @@ def speed(value: float, rng: Random) -> Value:
 
 def knots(rng: Random) -> Value:
     """A speed in knots, m/s in the plan."""
-    number = (1, 2, 3, 4, 5, 0.5, 1.5, 2.5)[int(rng.random() * 8)]
+    number = pick((1, 2, 3, 4, 5, 0.5, 1.5, 2.5), rng)
     text = f"{number} {many(number, 'knot') if rng.random() < 0.8 else 'kn'}"
     return Value(tidy(round(number * 0.514444, 2)), text, f"{number}-knot")
 
 
 def position(value: Point, rng: Random, form: str | None = None) -> Value:
-    """A position in one of the forms in which operators give coordinates, `form` of them where it
-    is given; short: always in brackets.
-    """
+    """A position as operators give coordinates, in `form` if given; short: in brackets."""
     x, y = digits(value[0]), digits(value[1])
     short = f"[{x}, {y}]" if rng.random() < 0.75 else f"({x}, {y})"
     roll = rng.random()
     if form is None and roll < 0.05 and value[0] and value[1]:
-        text = _compass_position(value, rng)
+        sides = ("east" if value[0] > 0 else "west", "north" if value[1] > 0 else "south")
+        unit, joint = pick((" m", " metres", ""), rng), pick((" and ", ", ", " "), rng)
+        east, north = (f"{digits(abs(one))}{unit}" for one in value)
+        text = f"{east} {sides[0]}{joint}{north} {sides[1]}"
     elif form is None and roll < 0.08:
-        text = _spoken_position(value, rng)
+        if all(isinstance(one, int) and abs(one) < 1000 for one in value):
+            spoken = ["minus " * (one < 0) + in_words(int(abs(one))) for one in value]
+            text = pick((", ", " comma ", ", "), rng).join(spoken)
+        else:
+            text = f"{x}, {y}".replace("-", "minus ")
     else:
         text = (form or pick(WRITTEN, rng)).format(x=x, y=y)
-        if "-" in text and text[0] not in "[(xX" and ("/" not in text):
+        if "-" in text and text[0] not in "[(xX" and "/" not in text:
             text = f"{x}, {y}".replace("-", "minus ") if rng.random() < 0.5 else short
     return Value(list(value), text, short)
-
-
-def _spoken_position(value: Point, rng: Random) -> str:
-    words = [
-        ("minus " if number < 0 else "")
-        + (in_words(abs(number)) if isinstance(number, int) and abs(number) < 1000 else "")
-        for number in value
-    ]
-    if any(word.endswith("minus ") or not word for word in words):
-        return ", ".join(digits(number).replace("-", "minus ") for number in value)
-    return pick((", ", " comma ", ", "), rng).join(words)
-
-
-def _compass_position(value: Point, rng: Random) -> str:
-    sides = ("east" if value[0] > 0 else "west", "north" if value[1] > 0 else "south")
-    unit, joint = pick((" m", " metres", ""), rng), pick((" and ", ", ", " "), rng)
-    x, y = digits(abs(value[0])), digits(abs(value[1]))
-    return f"{x}{unit} {sides[0]}{joint}{y}{unit} {sides[1]}"
 
 
 def polygon(value: list[Point], rng: Random) -> Value:
@@ -310,12 +287,7 @@ def polygon(value: list[Point], rng: Random) -> Value:
 
 
 SENSES: dict[str, Callable[[float, Random], Value]] = {
-    "length": length,
-    "duration": duration,
-    "bearing": bearing,
-    "angle": angle,
-    "rotation": rotation,
-    "speed": speed,
+    sense.__name__: sense for sense in (length, duration, bearing, angle, rotation, speed)
 }
 
 

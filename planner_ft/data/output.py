@@ -52,13 +52,14 @@ def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[boo
 
 
 def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
-    """Texts that must be written, and the names of those that replace others. Raises PlannerError
-    where records of the curated source itself would be cut.
+    """Texts to be written, and the names of those that replace others. Raises PlannerError where
+    records of the curated source itself would be cut.
     """
     in_place = folder.source is not None and folder.source.resolve() == folder.folder.resolve()
     texts, replaced = {}, []
     for name, text in folder.texts.items():
-        present = _present(folder.folder / name)
+        path = folder.folder / name
+        present = _present(path)
         records = in_place and "/" not in name and name.endswith(".jsonl")
         if present == text or (present and records and _canonical(present) == text):
             continue
@@ -66,7 +67,6 @@ def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
         if present is not None:
             replaced.append(name)
             if records and present.count("\n") > text.count("\n"):
-                path = folder.folder / name
                 raise PlannerError(
                     f"{path} is the curated source and would be cut; give another --out"
                 )
@@ -89,15 +89,17 @@ def _canonical(text: str) -> str:
 
 
 def _write(folder: DataFolder, texts: dict[str, str]) -> None:
-    """Stage all files beside the target, then move them in: a full disk leaves the target as it
-    was.
-    """
+    """Stage all files beside the target, then move them in: a full disk leaves it as it was."""
     names = [*(name for name in texts if name != MANIFEST), MANIFEST]
+    digests = {
+        name: sha256_text(text) if name in texts else sha256_file(folder.folder / name)
+        for name, text in folder.texts.items()
+    }
     try:
         with alone(folder.folder, "--out", "gen-data"), staging(folder.folder) as staged:
             for name in names[:-1]:
                 write_text(staged / name, texts[name])
-            write_json(staged / MANIFEST, {**folder.manifest, "outputs": _digests(folder, texts)})
+            write_json(staged / MANIFEST, {**folder.manifest, "outputs": digests})
             for name in names:
                 (folder.folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (staged / name).replace(folder.folder / name)
@@ -105,11 +107,3 @@ def _write(folder: DataFolder, texts: dict[str, str]) -> None:
         raise PlannerError(
             f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out"
         ) from None
-
-
-def _digests(folder: DataFolder, texts: dict[str, str]) -> dict[str, str]:
-    """SHA-256 of every file as it lies in the folder afterwards."""
-    return {
-        name: sha256_text(text) if name in texts else sha256_file(folder.folder / name)
-        for name, text in folder.texts.items()
-    }

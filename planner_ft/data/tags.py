@@ -1,9 +1,8 @@
-"""The tags of the curated mission set, one per labelling rule, and the audit of what the set
-covers. The tags stand in tags.toml.
-"""
+"""The tags of the curated mission set, one per labelling rule (tags.toml), and their audit."""
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,20 +15,22 @@ from planner_ft.vocabulary.plans import plan_names
 Records = Sequence[Mapping[str, Any]]
 
 _TABLE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
-TAGS: dict[str, str] = {tag: entry["rule"] for tag, entry in _TABLE.items()}
+
+
+def _column(key: str) -> dict[str, Any]:
+    return {tag: entry[key] for tag, entry in _TABLE.items() if key in entry}
+
+
+TAGS: dict[str, str] = _column("rule")
 """Tag to what a command with it exercises."""
-TASKS_OF_TAG: dict[str, list[str]] = {
-    tag: entry["tasks"] for tag, entry in _TABLE.items() if "tasks" in entry
-}
+TASKS_OF_TAG: dict[str, list[str]] = _column("tasks")
 """A record with the tag has one of these tasks."""
-ALWAYS_TAGGED: dict[str, str] = {
-    entry["always"]: tag for tag, entry in _TABLE.items() if "always" in entry
-}
+ALWAYS_TAGGED: dict[str, str] = {task: tag for tag, task in _column("always").items()}
 """A record with the task has this tag."""
+WORDS = {tag: re.compile(rf"\b(?:{words})\b", re.I) for tag, words in _column("words").items()}
+"""A command with such words may be one with the tag, where records have none."""
 COVERAGE = {"train": (125, 8), "validation": (25, 1), "test": (25, 1)}
-"""Records of each split of a curated set, and how often a title occurs there at least. Every
-`which.*` tag occurs once at least.
-"""
+"""Records of each split, and how often a title at least; every `which.*` tag occurs once."""
 
 
 def tags_of(vocabulary: Vocabulary) -> list[str]:
@@ -58,9 +59,7 @@ def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[
 
 
 def coverage_problems(splits: Mapping[str, Records], vocabulary: Vocabulary) -> list[str]:
-    """What a curated mission set lacks: counts, titles and `which.*` tags per split, families and
-    prompts that cross splits.
-    """
+    """What a curated mission set lacks per split, and families and prompts that cross splits."""
     problems = [
         f"{split}: {len(splits[split])} records, {count} are expected"
         for split, (count, _least) in COVERAGE.items()

@@ -16,16 +16,16 @@ from typing import Any
 
 from planner_ft.data.wordlists import any_things, made_up_name, pseudo_word
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level, named_entries
 
 _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
-_FILE = Path(__file__).parent / "unfamiliar.toml"
-_TABLES: dict[str, Any] = tomllib.loads(_FILE.read_text(encoding="utf-8"))
-_PREFIXES: list[str] = _TABLES["prefixes"].split()
-_SUFFIXES: list[str] = _TABLES["suffixes"].split()
-_STAYING: frozenset[str] = frozenset(_TABLES["staying"].split())
+_TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+_LISTS: dict[str, list[str]] = {k: v.split() for k, v in _TABLES.items() if isinstance(v, str)}
+_STAYING, _ACCENTS = frozenset(_LISTS["staying"]), dict[str, str](_TABLES["accents"])
+_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]+")
+"""The words of a name such as CaptureGeoSnapshot."""
 _UNCLEAR = ("u", "eu", "one", "hon")
 """Beginnings after which the spelling does not tell "a" from "an"."""
-_ACCENTS: dict[str, str] = _TABLES["accents"]
 
 
 def with_unfamiliar_words(
@@ -50,19 +50,18 @@ def with_unfamiliar_words(
     return changed
 
 
+def _by(forms: dict[str, str]) -> Callable[[re.Match[str]], str]:
+    return lambda match: forms[match[0]]
+
+
 def unfamiliar_word(word: str, rng: Random) -> str:
     """A made-up or foreign word in the place of `word`: a name for a name, "an" stays "an"."""
     for _ in range(50):
-        found = _name(rng) if word[0].isupper() else _noun(rng)
+        found = _accented(made_up_name(rng), rng, 0.35) if word[0].isupper() else _noun(rng)
         same = (found[0].lower() in "aeio") == (word[0].lower() in "aeio")
         if same and found[0].isascii() and not found.lower().startswith(_UNCLEAR):
             return found
     return word
-
-
-def _name(rng: Random) -> str:
-    name = made_up_name(rng)
-    return _accented(name, rng) if rng.random() < 0.35 else name
 
 
 def _noun(rng: Random) -> str:
@@ -72,18 +71,16 @@ def _noun(rng: Random) -> str:
     if roll < 0.5:
         return rng.choice(things) + rng.choice(things)
     if roll < 0.65:
-        begun = rng.choice(_PREFIXES) + rng.choice(things)
-        return begun + (rng.choice(_SUFFIXES) if rng.random() < 0.4 else "")
-    word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_SUFFIXES)
-    return _accented(word, rng) if rng.random() < 0.25 else word
+        begun = rng.choice(_LISTS["prefixes"]) + rng.choice(things)
+        return begun + (rng.choice(_LISTS["suffixes"]) if rng.random() < 0.4 else "")
+    word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_LISTS["suffixes"])
+    return _accented(word, rng, 0.25)
 
 
-def _by(forms: dict[str, str]) -> Callable[[re.Match[str]], str]:
-    return lambda match: forms[match[0]]
-
-
-def _accented(word: str, rng: Random) -> str:
-    """`word` with one or two letters, not the first, that English does not have."""
+def _accented(word: str, rng: Random, share: float) -> str:
+    """`word`, at times with one or two letters, not the first, that English does not have."""
+    if rng.random() >= share:
+        return word
     letters = list(word)
     places = [index for index, letter in enumerate(letters) if index and letter in _ACCENTS]
     for index in rng.sample(places, min(len(places), rng.choice((1, 1, 1, 2)))):
@@ -99,28 +96,16 @@ def _things() -> tuple[str, ...]:
 
 def _shared_words(record: dict[str, Any], vocabulary: Vocabulary, own: bool) -> list[str]:
     """Things and names in the plan's parameters that the prompt has too, in the plan's order."""
-    meant, things = _vocabulary_words(vocabulary), frozenset(_things())
-    prompt = set(_WORD.findall(record["prompt"]))
-    found = dict.fromkeys(w for text in _texts(record["expected"]) for w in _WORD.findall(text))
+    names = [task.title for task in vocabulary.tasks] + [skill.name for skill in vocabulary.skills]
+    meant = {part.lower() for name in names for part in _PARTS.findall(name)} | _STAYING
+    things, prompt = frozenset(_things()), set(_WORD.findall(record["prompt"]))
+    level: Level = "mission" if "tasks" in record["expected"] else "task"
+    texts = (
+        text for _name, own_ in named_entries(level, record["expected"]) for text in _strings(own_)
+    )
+    found = dict.fromkeys(word for text in texts for word in _WORD.findall(text))
     shared = [word for word in found if word in prompt and word.lower() not in meant]
     return [w for w in shared if own or w in things or (w[0].isupper() and not w.isupper())]
-
-
-@functools.cache
-def _vocabulary_words(vocabulary: Vocabulary) -> frozenset[str]:
-    """The words that the names of tasks and skills are made of, in lower case."""
-    names = [task.title for task in vocabulary.tasks] + [skill.name for skill in vocabulary.skills]
-    return _STAYING | {
-        part.lower() for name in names for part in re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+", name)
-    }
-
-
-def _texts(expected: dict[str, Any]) -> Iterator[str]:
-    for entry in expected.get("tasks", ()):
-        yield from _strings(entry["parameters"])
-    for step in expected.get("skill_sequence", ()):
-        for call in (step["navigation_skill"], *step["filter_skills"], *step["perception_skills"]):
-            yield from _strings(call["parameters"])
 
 
 def _strings(value: Any) -> Iterator[str]:

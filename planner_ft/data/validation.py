@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from planner_ft.data.completeness import completeness_problems
 from planner_ft.data.rules import rule_problems
-from planner_ft.data.steprules import step_problems
+from planner_ft.data.stated import completeness_problems, step_problems
 from planner_ft.data.tags import tag_problems
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json, read_text
@@ -52,9 +51,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Report:
-    """What a file holds, by kind ("mission record", "task prediction", ...), and everything wrong
-    with it.
-    """
+    """What a file holds, by kind ("mission record", ...), and everything wrong with it."""
 
     path: Path
     counts: dict[str, int]
@@ -75,60 +72,42 @@ def validate_file(
     Raises PlannerError when the file is missing, unreadable, not UTF-8 or empty.
     """
     counts: Counter[str] = Counter()
-    problems = []
+    problems: list[Problem] = []
     lines: dict[str, int] = {}
     for line, value, problem in file_values(path):
-        if problem is None and isinstance(value, dict):
-            kind, found_level, texts = object_problems(value, vocabulary, level, complete=complete)
-            counts[" ".join(filter(None, (found_level, kind or "unknown object")))] += 1
-            if (
-                complete
-                and canonical
-                and kind == "record"
-                and found_level
-                and not texts
-                and canonical_record(found_level, value, vocabulary) != compact_json(value)
-            ):
-                texts.append(
-                    "not in canonical form: order of keys or parameters, or a whole number written"
-                    " with a point"
-                )
-            key = identity(value)
-            if kind != "plan" and key in lines:
-                texts.append(f"id {value.get('id')!r} stands in line {lines[key]} already")
-            lines.setdefault(key, line)
-        else:
-            texts = [problem or f"a JSON object is expected, not {type(value).__name__}"]
+        if problem or not isinstance(value, dict):
+            text = problem or f"a JSON object is expected, not {type(value).__name__}"
+            problems.append(Problem(path, line, text))
+            continue
+        kind, found, texts = object_problems(value, vocabulary, level, complete=complete)
+        counts[" ".join(filter(None, (found, kind or "unknown object")))] += 1
+        audited = complete and canonical and kind == "record" and not texts
+        if audited and found and canonical_record(found, value, vocabulary) != compact_json(value):
+            texts.append(
+                "not in canonical form: order of keys or parameters, or a whole number written"
+                " with a point"
+            )
+        # Unique is the id, of predictions of several systems with candidate and configuration.
+        key = compact_json([str(value.get(key)) for key in ("id", "candidate", "configuration")])
+        if kind != "plan" and key in lines:
+            texts.append(f"id {value.get('id')!r} stands in line {lines[key]} already")
+        lines.setdefault(key, line)
         problems += [Problem(path, line, text) for text in texts]
     return Report(path, dict(counts), tuple(problems))
 
 
 def canonical_record(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> str:
-    """The line of a valid record in the form in which gen-data writes it: keys in a fixed order,
-    canonical plan.
-    """
+    """The line of a valid record as gen-data writes it: keys in order, canonical plan."""
     values = {**record, "expected": canonical_plan(level, record["expected"], vocabulary)}
     if level == "task":
-        values["parameters"] = canonical_parameters(
-            record["parameters"], vocabulary.task[record["task"]]
-        )
-    ordered = [key for key in RECORD_KEYS if key in values] + [
-        key for key in values if key not in RECORD_KEYS
-    ]
-    return compact_json({key: values[key] for key in ordered})
-
-
-def identity(value: dict[str, Any]) -> str:
-    """What must be unique in a file: the id, for predictions of several systems with candidate and
-    configuration.
-    """
-    return compact_json([str(value.get(key)) for key in ("id", "candidate", "configuration")])
+        owner = vocabulary.task[record["task"]]
+        values["parameters"] = canonical_parameters(record["parameters"], owner)
+    known = [key for key in RECORD_KEYS if key in values]
+    return compact_json({key: values[key] for key in dict.fromkeys((*known, *values))})
 
 
 def file_values(path: Path) -> Iterator[tuple[int, Any, str | None]]:
-    """(line, value, None) or (line, None, what is wrong) for each object: one per line, or the
-    whole file as one object.
-    """
+    """(line, value, None) or (line, None, what is wrong) for each object, one a line or whole."""
     text = read_text(path)
     if not text.strip():
         raise PlannerError(f"{path}: is empty; a dataset, predictions or a plan is expected")
@@ -150,11 +129,15 @@ def object_problems(
     *,
     complete: bool = False,
 ) -> tuple[Kind | None, Level | None, list[str]]:
-    """Kind and level of an object, and everything wrong with it. `level` is the one that it must
-    have; None takes what it has.
-    """
-    kind, plan = _kind(value)
-    if kind is None:
+    """Kind, level (`level`, if given) and problems of an object."""
+    kind: Kind
+    if "expected" in value:
+        kind, plan, key = "record", value["expected"], "expected: "
+    elif "output" in value:
+        kind, plan, key = "prediction", value["output"], "output: "
+    elif any(list_key(known) in value for known in LEVELS):
+        kind, plan, key = "plan", value, ""
+    else:
         what = "a dataset record (expected), a prediction (output), a plan (tasks, skill_sequence)"
         return None, level, [f"none of {what}"]
     problems = _identifier_problems(value, ("id",)) if kind == "prediction" else []
@@ -162,10 +145,8 @@ def object_problems(
         plan, _line, problem = decode_json(plan)
         if problem:
             return kind, level, [*problems, f"output: {problem}"]
-    found = next(
-        (known for known in LEVELS if isinstance(plan, dict) and list_key(known) in plan), level
-    )
-    key = {"record": "expected: ", "prediction": "output: ", "plan": ""}[kind]
+    known_keys = plan.keys() if isinstance(plan, dict) else ()
+    found = next((known for known in LEVELS if list_key(known) in known_keys), level)
     if found is None:
         return kind, None, [f"{key}holds neither tasks nor skill_sequence"]
     if level not in (None, found):
@@ -180,47 +161,32 @@ def object_problems(
     return kind, found, [*problems, *(f"{key}{text}" for text in texts)]
 
 
-def _kind(value: dict[str, Any]) -> tuple[Kind | None, Any]:
-    if "expected" in value:
-        return "record", value["expected"]
-    if "output" in value:
-        return "prediction", value["output"]
-    return ("plan", value) if any(list_key(level) in value for level in LEVELS) else (None, None)
-
-
 # ---------------------------------------------------------------- dataset records
 
 
 def record_problems(
     level: Level, record: dict[str, Any], vocabulary: Vocabulary, *, complete: bool = False
 ) -> list[str]:
-    """What is wrong with a dataset record. Without `complete`, `expected` may hold names and
-    parameters alone.
-    """
-    problems = _identifier_problems(
-        record, ("id", "prompt", *(("family",) if complete or "family" in record else ()))
-    )
+    """What is wrong with a record; only if `complete`, `expected` needs its texts."""
+    family = ("family",) if complete or "family" in record else ()
+    problems = _identifier_problems(record, ("id", "prompt", *family))
     if level == "task":
         problems += _task_problems(record, vocabulary)
-    expected = record.get("expected")
-    form = plan_problems(
-        level, expected if complete else _filled(level, expected), vocabulary, strict=True
-    )
+    expected, prompt, tags = (record.get(key) for key in ("expected", "prompt", "tags"))
+    whole = expected if complete else _filled(level, expected)
+    form = plan_problems(level, whole, vocabulary, strict=True)
     problems += [f"expected: {text}" for text in form]
-    prompt, tags = record.get("prompt"), record.get("tags")
     if not isinstance(prompt, str) or not isinstance(expected, dict):
         return problems
     if level == "task":
         problems += [f"expected: {text}" for text in step_problems(record, vocabulary)]
-    else:
-        known = (
-            tags if isinstance(tags, list) and all(isinstance(tag, str) for tag in tags) else None
-        )
-        found = rule_problems(expected, vocabulary, prompt, known)
-        problems += [f"expected: {text}" for text in found]
-        problems += _annotation_problems(record, prompt, vocabulary, complete=complete)
+        return problems
+    known = isinstance(tags, list) and all(isinstance(tag, str) for tag in tags)
+    found = rule_problems(expected, vocabulary, prompt, tags if known else None)
+    problems += [f"expected: {text}" for text in found]
+    problems += _annotation_problems(record, prompt, vocabulary, complete=complete)
     if complete and not form:
-        problems += completeness_problems(level, record, vocabulary)
+        problems += completeness_problems(record, vocabulary)
     return problems
 
 
@@ -261,16 +227,11 @@ def _task_problems(record: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
     missing = [f"{key} is missing" for key in ("task", "parameters") if key not in record]
     if missing:
         return missing
-    plan = {
-        "tasks": [{"title": record["task"], "parameters": record["parameters"], "task_prompt": ""}],
-        "assumptions": [],
-        "constraints": [],
-    }
+    task = {"title": record["task"], "parameters": record["parameters"], "task_prompt": ""}
+    plan = {"tasks": [task], "assumptions": [], "constraints": []}
     found = plan_problems("mission", plan, vocabulary, strict=True)
-    return [
-        text.replace("tasks[0].parameters", "parameters").replace("tasks[0]", "task")
-        for text in found
-    ]
+    places = ("tasks[0].parameters", "parameters"), ("tasks[0]", "task")
+    return [text.replace(*places[0]).replace(*places[1]) for text in found]
 
 
 def _annotation_problems(
@@ -294,9 +255,8 @@ def _span_problems(span: Any, prompt: str) -> Iterator[str]:
     if span["element"] not in ELEMENTS:
         yield f"element {span['element']!r} is none of {', '.join(ELEMENTS)}"
     start, end = span["start"], span["end"]
-    if not all(
-        isinstance(bound, int) and not isinstance(bound, bool) for bound in (start, end)
-    ) or not 0 <= start < end <= len(prompt):
+    whole = all(type(bound) is int for bound in (start, end))
+    if not whole or not 0 <= start < end <= len(prompt):
         yield f"{start!r} to {end!r} lies outside the prompt"
     elif prompt[start:end] != span["text"]:
         yield f"text is {span['text']!r}, but the prompt has {prompt[start:end]!r} there"

@@ -84,10 +84,7 @@ class WordLists:
         if name not in self.lists:
             return MADE_UP[name](rng)
         entries, weights = self.lists[name]
-        if weights is None:
-            text = entries[int(rng.random() * len(entries))]
-        else:
-            text = rng.choices(entries, cum_weights=weights)[0]
+        text = rng.choices(entries, cum_weights=weights)[0] if weights else pick(entries, rng)
         return text if "{" not in text else self.fill(text, rng)
 
     def fill(self, text: str, rng: Random) -> str:
@@ -116,9 +113,7 @@ class WordLists:
         return Value(stored, entry, stored)
 
     def quoted(self, name: str, rng: Random) -> Value:
-        """A text to be written down word for word: mostly in quotation marks, a single word also
-        without.
-        """
+        """A text to be written down word for word, mostly in quotation marks."""
         stored = self.noun(name, rng).value
         mark = pick(("'", '"', "'", '"', ""), rng) or ("" if " " not in stored else '"')
         return Value(stored, f"{mark}{stored}{mark}")

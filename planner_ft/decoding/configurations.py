@@ -1,6 +1,4 @@
-"""Configurations: with or without the adapter, how strongly decoding is constrained, and what ends
-an answer.
-"""
+"""Configurations: with or without adapter, how strongly constrained; what ends an answer."""
 
 from __future__ import annotations
 
@@ -18,16 +16,12 @@ the facts of the command.
 """
 WEIGHTS = ("base", "lora")
 MAX_NEW_TOKENS: dict[Level, int] = {"mission": 1024, "task": 2048}
-"""Default limits per answer. The longest expected plan takes well below half of it with the
-published tokenizers.
-"""
+"""Default limits per answer; the longest expected plan takes well below half of it."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What ends an answer: a token of `end_ids`, or `max_new_tokens`. `pad_id` fills shorter
-    prompts on the left.
-    """
+    """Ends of an answer: `end_ids` or `max_new_tokens`; `pad_id` fills prompts on the left."""
 
     end_ids: tuple[int, ...]
     pad_id: int
@@ -36,9 +30,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Configuration:
-    """How a candidate is used: `adapter` says whether the fine-tuned one is, `strength` what
-    decoding enforces.
-    """
+    """`adapter`: whether the fine-tuned one is used; `strength`: what decoding enforces."""
 
     adapter: bool
     strength: Strength = "free"
@@ -51,9 +43,7 @@ class Configuration:
 
 
 def parse_configuration(text: str) -> Configuration:
-    """Read "base", "lora", "base+STRENGTH" or "lora+STRENGTH". Raises PlannerError that names what
-    there is.
-    """
+    """Read "base", "lora+STRENGTH" ... Raises PlannerError that names what there is."""
     known = {
         Configuration(adapter, strength).name: Configuration(adapter, strength)
         for strength in STRENGTHS

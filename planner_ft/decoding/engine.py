@@ -16,19 +16,13 @@ from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
 from planner_ft.candidates.tokenizer import FileTokenizer
 from planner_ft.confidence.choices import Choice, Choices
+from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
 from planner_ft.decoding.constraints.steps import STEP_OPENS
 from planner_ft.decoding.forward import SmallModel, read_forms
-from planner_ft.decoding.generate import (
-    Generation,
-    Latency,
-    Method,
-    Query,
-    generate_unordered,
-    measure_latency,
-)
+from planner_ft.decoding.generate import Generation, Method, Query
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.sampling import Sampling
@@ -111,24 +105,20 @@ class Engine:
         else:
             model = load_model(candidate, device=device, adapters=given, **settings)
             width = model.config.get_text_config().vocab_size
-        ends = tuple(ends_of_answers(tokenizer, _named_ends(folder)))
-        pad = int(tokenizer.pad_token_id)
+        config, own = read_config(folder), read_config(folder, "generation_config.json")
+        named = own.get("eos_token_id", config.get("eos_token_id"))
+        ends, pad = tuple(ends_of_answers(tokenizer, named)), int(tokenizer.pad_token_id)
         limits = {
             level: Limits(ends, pad, max_new_tokens or default)
             for level, default in MAX_NEW_TOKENS.items()
         }
-        speed = speed or Speed()
-        adapted = frozenset(given)
-        return cls(
-            model, forms or {}, tokenizer, width, vocabulary, limits, adapted, threads, speed
-        )
+        how = frozenset(given), threads, speed or Speed()
+        return cls(model, forms or {}, tokenizer, width, vocabulary, limits, *how)
 
     def query(
         self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False
     ) -> Query:
-        """A question to the agent of a level. `with_vocabulary` is for base models, which have not
-        learned it.
-        """
+        """A question to a level's agent; a base model is shown the vocabulary."""
         prompt = render_prompt(
             level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary
         )
@@ -152,11 +142,11 @@ class Engine:
         Raises PlannerError when the level has no adapter that the configuration needs, or the token
         limit is too small for its strength.
         """
-        for level in _levels(queries):
-            method = self.method(level, configuration, sampling)
+        if level := _level(queries):
+            method, limits = self.method(level, configuration, sampling), self.limits[level]
             with self.configured(level, configuration) as decoder:
-                yield from generate_unordered(
-                    decoder, queries, self.limits[level], method, batch_size=batch_size
+                yield from generate.generate_unordered(
+                    decoder, queries, limits, method, batch_size=batch_size
                 )
 
     def latencies(
@@ -165,14 +155,12 @@ class Engine:
         configuration: Configuration,
         *,
         sampling: Sampling | None = None,
-    ) -> Iterator[tuple[int, Latency]]:
-        """Yield (index of the query, latency), one query at a time. The queries are of one
-        level.
-        """
-        for level in _levels(queries):
+    ) -> Iterator[tuple[int, Generation]]:
+        """Yield (index of the query, answer with its latency), one query at a time."""
+        if level := _level(queries):
             method = self.method(level, configuration, sampling)
             with self.configured(level, configuration) as decoder:
-                yield from measure_latency(decoder, queries, self.limits[level], method)
+                yield from generate.measure_latency(decoder, queries, self.limits[level], method)
 
     def method(
         self, level: Level, configuration: Configuration, sampling: Sampling | None = None
@@ -193,47 +181,35 @@ class Engine:
         """The raw text of an answer, without the token that ended it and without its working; other
         special tokens stay visible.
         """
-        return without_working(self._whole_text(answer))[0]
+        return without_working(self._decoded(_said(answer)))[0]
 
     def working(self, answer: Generation) -> str:
         """The sums that a model wrote before a skill sequence (planner_ft.data.task.working)."""
-        return without_working(self._whole_text(answer))[1]
+        return without_working(self._decoded(_said(answer)))[1]
 
     def choices(self, answer: Generation) -> Choices | None:
-        """The tokens of `text(answer)` with what the model itself held of them; None where that is
-        not known.
-        """
-        ids, text = _said(answer), self._whole_text(answer)
+        """The tokens of `text(answer)` with the model's own odds; None where unknown."""
+        ids = _said(answer)
+        text = self._decoded(ids)
         scores = [scored for scored in answer.scores[: len(ids)] if scored is not None]
         if len(scores) < len(ids):
             return None
+        ends = list(itertools.accumulate(len(self._piece(token)) for token in ids))
+        if ids and ends[-1:] != [len(text)]:
+            # Some tokens are parts of a letter, or are written otherwise when they stand alone.
+            parts = (self._decoded(ids[: count + 1]) for count in range(len(ids)))
+            ends = [len(part.rstrip("\ufffd")) for part in parts]
         hidden = 1, 1 + len(text) - len(without_working(text)[0])
-        ends, start, found = self._ends(ids, text), 0, []
-        for end, scored in zip(ends, scores, strict=True):
+        found = []
+        for start, end, scored in zip([0, *ends], ends, scores, strict=False):
             cut = max(0, min(end, hidden[1]) - max(start, hidden[0]))
             others = tuple((self._piece(token), logprob) for token, logprob in scored.others)
             found.append(Choice(end - start - cut, scored.logprob, others))
-            start = end
         return tuple(found)
 
-    def _ends(self, ids: Sequence[int], text: str) -> list[int]:
-        """Where the tokens of a text end in it."""
-        ends = list(itertools.accumulate(len(self._piece(token)) for token in ids))
-        if ends[-1:] == [len(text)] or not ids:
-            return ends
-        # Some tokens are parts of a letter, or are written otherwise when they stand alone.
-        parts = (self._decoded(ids[: count + 1]) for count in range(len(ids)))
-        return [len(part.rstrip("\ufffd")) for part in parts]
-
-    def _whole_text(self, answer: Generation) -> str:
-        return self._decoded(_said(answer))
-
     def _decoded(self, ids: Sequence[int]) -> str:
-        return str(
-            self.tokenizer.decode(
-                list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False
-            )
-        )
+        plain = {"skip_special_tokens": False, "clean_up_tokenization_spaces": False}
+        return str(self.tokenizer.decode(list(ids), **plain))
 
     def release(self) -> None:
         """Give the model's memory back."""
@@ -269,10 +245,7 @@ class Engine:
         if (level, strength) not in self.factories:
             limits = self.limits[level]
             self.factories[level, strength] = constraint_factory(
-                self.tokenizer,
-                level,
-                self.vocabulary,
-                strength,
+                *(self.tokenizer, level, self.vocabulary, strength),
                 end_ids=limits.end_ids,
                 limit=limits.max_new_tokens,
                 n_vocab=self.width,
@@ -283,8 +256,8 @@ class Engine:
         """How plans of a level are put together, to draft from."""
         if level not in self.bases:
             texts = usual_plans(level, self.vocabulary)
-            end = self.limits[level].end_ids[0]
             plans = self.tokenizer(texts, add_special_tokens=False)["input_ids"]
+            end = self.limits[level].end_ids[0]
             tokens = [token for plan in plans for token in (*plan, end)]
             self.bases[level] = Lookup(tokens, self._likeness)
         return self.bases[level]
@@ -311,27 +284,23 @@ def _said(answer: Generation) -> tuple[int, ...]:
     return answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
 
 
-def _levels(queries: Sequence[Query]) -> set[Level]:
-    """The level of the queries; none where there are no queries."""
+def _level(queries: Sequence[Query]) -> Level | None:
+    """The level of the queries; None where there are none."""
     levels = {query.level for query in queries}
     if len(levels) > 1:
         raise ValueError("the queries of one call are of one level")
-    return levels
+    return levels.pop() if levels else None
 
 
 def is_small(candidate: Candidate, device: str) -> bool:
-    """Whether a candidate is so small, on a CPU, that a token's time goes to everything but the
-    multiplications.
-    """
+    """Whether a token's time on a CPU goes to everything but the multiplications."""
     from planner_ft.training.model import SMALL_MODEL
 
     return device == "cpu" and (candidate.parameters or SMALL_MODEL) < SMALL_MODEL
 
 
 def decoding_threads(candidate: Candidate, device: str) -> int | None:
-    """CPU threads to decode with: one for small models, as in training, where a busy core would
-    hold up every operation.
-    """
+    """CPU threads to decode with: one for small models; a busy core holds up more."""
     return 1 if is_small(candidate, device) else None
 
 
@@ -346,10 +315,3 @@ def limited_threads(threads: int | None) -> Iterator[None]:
         yield
     finally:
         torch.set_num_threads(before)
-
-
-def _named_ends(folder: Path) -> int | Sequence[int] | None:
-    """End tokens that the generation settings in a model's folder name."""
-    config, settings = read_config(folder), read_config(folder, "generation_config.json")
-    named: int | Sequence[int] | None = settings.get("eos_token_id", config.get("eos_token_id"))
-    return named

@@ -119,14 +119,10 @@ def read_forms(
     if quantization == "nf4":
         tensors |= {name: rounded_to_nf4(tensors[name]) for name in layers}
     forms: dict[Level | None, SmallModel] = {}
-    folders: dict[Level | None, Path | None] = {None: None}
-    folders |= {level: path for level, path in adapters.items()}  # noqa: C416
-    for name, at in folders.items():
-        added = _added(at, layers) if at else {}
-        if added is None:
-            return None
-        merged = {key: (tensors[key].float() + new).to(dtype) for key, new in added.items()}
-        form = small_model(config, {**tensors, **merged})
+    for name in (None, *adapters):
+        added = _added(adapters[name], layers) if name else {}
+        merged = {key: (tensors[key].float() + new).to(dtype) for key, new in (added or {}).items()}
+        form = small_model(config, {**tensors, **merged}) if added is not None else None
         if form is None:
             return None
         forms[name] = form
@@ -154,9 +150,7 @@ def _rope(config: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
-    """What an adapter adds to the weights of its layers, by name; None where it is more than a pair
-    of matrices for each.
-    """
+    """What an adapter adds to its layers by name; None where it is more than two matrices each."""
     config, tensors = read_config(folder, CONFIG), load_file(folder / WEIGHTS)
     prefix, down, up = LORA
     names = {layer: prefix + layer.removesuffix(".weight") for layer in layers}
@@ -164,11 +158,8 @@ def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
     # An initialisation with a name (PiSSA, LoftQ ...) changes the base, too.
     plain = config.get("bias") == "none" and isinstance(config.get("init_lora_weights", True), bool)
     others = any(value and name not in PLAIN_LORA for name, value in config.items())
-    if (
-        not plain
-        or others
-        or set(tensors) != {one + end for one in used.values() for end in LORA[1:]}
-    ):
+    pairs = {one + end for one in used.values() for end in LORA[1:]}
+    if not plain or others or set(tensors) != pairs:
         return None
     scaling = config["lora_alpha"] / config["r"]
     return {
@@ -179,9 +170,7 @@ def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
 
 @dataclass(frozen=True)
 class Layer:
-    """Weights of a layer: rows of `qkv` are the query, key and value heads, those of `gate_up` the
-    two halves of the feed-forward part.
-    """
+    """A layer: rows of `qkv` are query, key, value heads; of `gate_up` the two halves."""
 
     norm: Tensor
     qkv: Linear
@@ -193,9 +182,7 @@ class Layer:
 
 @dataclass(frozen=True)
 class SmallModel:
-    """Weights of a Llama or Qwen2 model as they compute. `frequencies` are those of the rotary
-    positions, shape (head size / 2).
-    """
+    """A Llama or Qwen2 model; `frequencies` of its rotary positions, (head size / 2)."""
 
     layers: tuple[Layer, ...]
     embeddings: Tensor
@@ -219,18 +206,14 @@ class SmallModel:
         return rms_norm(states, weight.shape, weight, self.epsilon).to(self.head.dtype)
 
     def angles(self, positions: int) -> tuple[Tensor, Tensor]:
-        """Cosine and sine of the rotary positions, (positions, 1, head size); the first half of the
-        sine is negative, as rotation by `roll` wants it.
-        """
+        """Cosine and sine of rotary positions, (positions, 1, head size), for `roll`."""
         angles = torch.arange(positions).float()[:, None] * self.frequencies
         sine = angles.sin()
         return angles.cos().repeat(1, 2)[:, None], torch.cat([-sine, sine], 1)[:, None]
 
 
 def small_model(config: Mapping[str, Any], tensors: Mapping[str, Tensor]) -> SmallModel | None:
-    """The model of a config.json and tensors by name; None where it is of another kind, or its
-    tensors are not those of its configuration.
-    """
+    """The model of a config.json and tensors; None where they are of another kind."""
     sizes = Dimensions.from_config(dict(config))
     if sizes is None or not _is_supported(config):
         return None
@@ -286,9 +269,7 @@ def _frequencies(rope: Mapping[str, Any], size: int) -> Tensor:
 
 
 class SmallPasses:
-    """Forward passes of a batch (see `passes.Passes`). Rows have their own positions, so each is
-    fed as many tokens as it likes.
-    """
+    """Forward passes of a batch (see passes.Passes); each row has positions of its own."""
 
     wide = True
 
@@ -337,9 +318,7 @@ class SmallPasses:
         self.memory = [memory[:, list(kept)] for memory in self.memory]
 
     def _make_room(self, positions: int) -> None:
-        """Memory for this many positions, and their angles. What is not written yet is zero:
-        hidden, it must still be a number.
-        """
+        """Memory for this many positions; what is not written yet is hidden, and still a number."""
         if positions > self.capacity:
             more = max(_up(positions), 2 * self.capacity) - self.capacity
             self.memory = [pad(memory, (0, 0, 0, 0, 0, more)) for memory in self.memory]
@@ -375,9 +354,7 @@ class SmallPasses:
         angles: Sequence[Tensor],
         memory: Tensor,
     ) -> Tensor:
-        """Write the new keys and values into the memory, and let every position look at those up to
-        itself.
-        """
+        """Remember the new keys and values, and let every position look at those up to itself."""
         sizes = self.model.sizes
         heads, key_heads, size = sizes.heads, sizes.kv_heads, sizes.head_dim
         both = heads + key_heads
@@ -393,20 +370,17 @@ class SmallPasses:
             attention(queries[part], memory[:, rows, :reach], hidden[part, ..., :reach])
             for part, rows, reach in grid.parts
         ]
-        spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)[
-            ..., : grid.width, :
-        ]
+        spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)
+        spread = spread[..., : grid.width, :]
         flat = spread.permute(0, 3, 1, 2, 4).reshape(len(states), heads * size)
         return linear(flat.to(states.dtype), *layer.out)
 
 
 @dataclass(frozen=True)
 class _Grid:
-    """Where the tokens of a pass stand: blocks of `width` neighbours, the first at the positions
-    `starts`. Blocks that are not full end with tokens that count for nothing.
-
-    `where` are the row and positions of all tokens in the memory. `parts` are the blocks that
-    attend together, their rows, and the number of keys that they look at.
+    """Where the tokens of a pass stand: blocks of `width` neighbours from the positions `starts`
+    on, filled up with tokens that count for nothing. `where` are the row and positions of all
+    tokens in the memory, `parts` the blocks that attend together, their rows, and their keys.
     """
 
     starts: Tensor
@@ -435,9 +409,7 @@ class _Grid:
         return cls(first, width, (rows, positions), parts)
 
     def hidden(self, group: int) -> Tensor:
-        """Minus infinity where a key is later than a query, else 0: (blocks, 1, group * BLOCK,
-        keys).
-        """
+        """Minus infinity for later keys, else 0: (blocks, 1, group * BLOCK, keys)."""
         queries = (self.starts[:, None] + torch.arange(BLOCK)).repeat(1, group)
         later = torch.arange(self.parts[-1][2]) > queries[:, None, :, None]
         return torch.zeros(later.shape).masked_fill_(later, -torch.inf)

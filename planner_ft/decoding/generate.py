@@ -8,30 +8,26 @@ leave the batch, and every answer is handed over the moment that it is complete.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import torch
-from torch import Tensor
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import RAN_ON
 from planner_ft.decoding.constraints.factory import Factory
 from planner_ft.decoding.lookup import Likeness, Lookup
-from planner_ft.decoding.odds import Score, odds
 from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.sampling import Sampling
-from planner_ft.decoding.sequence import FinishReason, SequenceState
+from planner_ft.decoding.sequence import FinishReason, Score, SequenceState, scores
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
 
 @dataclass(frozen=True)
 class Query:
-    """A question to the agent of a level: its record ({"prompt", ...}), and the ids of the prompt
-    that it is rendered into.
-    """
+    """A question to a level's agent: its record ({"prompt", ...}) and prompt ids."""
 
     level: Level
     record: dict[str, Any]
@@ -65,20 +61,6 @@ class Generation:
     first_token_s: float | None = None
     alternatives: int = 0
     scores: tuple[Score | None, ...] = ()
-
-
-@dataclass(frozen=True)
-class Latency:
-    """Seconds from prompt ids to the complete answer, the number of generated tokens, and the
-    forward passes that they took.
-
-    `first_token_s` are the seconds until the first token was known.
-    """
-
-    seconds: float
-    tokens: int
-    forward_passes: int
-    first_token_s: float | None = None
 
 
 @dataclass(frozen=True)
@@ -164,10 +146,8 @@ def generate_unordered(
                 yield index, Generation((), "error", 0.0, str(error))
         try:
             for index, answer in _run(decoder, dict(states), began):
-                yield (
-                    index,
-                    _bounded(decoder, queries[index], limits, method, states[index], answer),
-                )
+                query, state = queries[index], states[index]
+                yield index, _bounded(decoder, query, limits, method, state, answer)
         except torch.OutOfMemoryError as error:
             raise PlannerError(
                 f"the device has too little memory for --batch-size {batch_size}; give a smaller"
@@ -177,8 +157,9 @@ def generate_unordered(
 
 def measure_latency(
     decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN
-) -> Iterator[tuple[int, Latency]]:
-    """Yield (index of the query, latency), one query after the other.
+) -> Iterator[tuple[int, Generation]]:
+    """Yield (index of the query, answer), one query after the other; its `seconds` are those from
+    prompt ids to the complete answer.
 
     A whole query runs first and is not counted: kernels are chosen, 4-bit weights packed and
     grammars compiled then.
@@ -189,24 +170,17 @@ def measure_latency(
         started = time.perf_counter()
         (answer,) = generate(decoder, [query], limits, method)
         # `generate` has read the last token from the device: nothing is left running.
-        seconds = time.perf_counter() - started
-        yield (
-            index,
-            Latency(seconds, len(answer.ids), answer.forward_passes, answer.first_token_s),
-        )
+        yield index, replace(answer, seconds=time.perf_counter() - started)
 
 
 def _room(decoder: Decoder, query: Query, limits: Limits) -> int:
     """Tokens that an answer may have."""
-    if decoder.context is None:
-        return limits.max_new_tokens
-    room = min(limits.max_new_tokens, decoder.context - len(query.prompt))
-    if room < 1:
+    context, taken = decoder.context, len(query.prompt)
+    if context is not None and taken >= context:
         raise PlannerError(
-            f"the prompt of {len(query.prompt)} tokens leaves no room in the model's context of"
-            f" {decoder.context}"
+            f"the prompt of {taken} tokens leaves no room in the model's context of {context}"
         )
-    return room
+    return min(limits.max_new_tokens, context - taken if context else limits.max_new_tokens)
 
 
 def _bounded(
@@ -218,10 +192,8 @@ def _bounded(
     answer: Generation,
 ) -> Generation:
     """The answer, or where it ran on beyond the free one, an answer of bounded length that is held
-    to the schema alone; with the cost of all.
-
-    The free answer begins as this one does up to where they diverged, and is only generated until
-    it is long enough.
+    to the schema alone; with the cost of all. The free answer begins as this one does up to where
+    they diverged, and is only generated until it is long enough.
     """
     entries, diverged = method.entries, state.diverged
     if entries is None or diverged is None or method.constraint is None:
@@ -239,9 +211,8 @@ def _bounded(
 
     free = run(replace(method, constraint=None), begun=answer.ids[:diverged], enough=enough)
     count, others = entries(free.ids), [free]
-    ran_on = made > 2 * count + 2 or (answer.cut and free.finish_reason == "stop")
     kept = answer
-    if ran_on:
+    if made > 2 * count + 2 or (answer.cut and free.finish_reason == "stop"):
         kept = run(method, most=2 * count + 2)
         kept = replace(kept, notes=(*kept.notes, RAN_ON), first_token_s=answer.first_token_s)
         others.append(answer)
@@ -255,10 +226,10 @@ def _bounded(
 
 @torch.inference_mode()
 def _run(
-    decoder: Decoder, batch: dict[int, SequenceState], began: float
+    decoder: Decoder, states: dict[int, SequenceState], began: float
 ) -> Iterator[tuple[int, Generation]]:
     """Yield (index, answer) as sequences end. `began` is when the work on the batch did."""
-    share, states, first = 0.0, batch, 0.0
+    share, first = 0.0, 0.0
     passes = decoder.start(len(states)) if states else None
     while passes and states:
         fed = [state.feed(wide=passes.wide) for state in states.values()]
@@ -266,11 +237,17 @@ def _run(
         logits = passes.run([ids for ids, _count in fed], wanted).float()
         # Reading the tokens waits for the device, so the time below is that of the whole step.
         best, wrong = logits.argmax(-1).tolist(), []
-        of_rows = torch.split(logits, wanted)
-        for state, rows in zip(states.values(), of_rows, strict=True):
+        decided = list(torch.split(logits, wanted))
+        for place, state in enumerate(states.values()):
+            rows = decided[place]
             wrong.append(state.choose(best[: len(rows)], rows))
             del best[: len(rows)]
-        _rate(states.values(), of_rows)
+            decided[place] = rows[: state.decided]
+        # What stood behind a wrong draft has no scores.
+        latest = [token for state in states.values() for token in state.latest]
+        scored = scores(latest, torch.cat(decided))
+        for state in states.values():
+            state.rate(scored)
         now = time.perf_counter()
         first = first or now - began
         share, began = share + (now - began) / len(states), now
@@ -285,25 +262,15 @@ def _run(
                 passes.select(kept)
 
 
-def _rate(states: Collection[SequenceState], of_rows: Sequence[Tensor]) -> None:
-    """Score the tokens that a pass decided; what stood behind a wrong draft has no odds."""
-    decided = [rows[: state.decided] for state, rows in zip(states, of_rows, strict=True)]
-    places = odds(torch.cat(decided))
-    for state, rows in zip(states, decided, strict=True):
-        state.rate(places[: len(rows)], rows)
-        del places[: len(rows)]
-
-
 def _generation(state: SequenceState, seconds: float, first: float) -> Generation:
     assert state.finished is not None
-    constraint = state.constraint
-    return Generation(
+    made = Generation(
         tuple(state.ids),
         state.finished,
         seconds,
         forward_passes=state.forward_passes,
-        notes=tuple(constraint.notes) if constraint else (),
-        cut=constraint.cut if constraint else False,
         first_token_s=first,
         scores=tuple(state.scores),
     )
+    known = state.constraint
+    return replace(made, notes=tuple(known.notes), cut=known.cut) if known else made

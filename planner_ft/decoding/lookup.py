@@ -19,9 +19,7 @@ from planner_ft.vocabulary.plans import Level
 LONGEST_MATCH = 4
 """Tokens at the end of the answer that are looked up at most. The longest match wins."""
 LONGEST_DRAFT = 7
-"""With the token that was chosen, eight positions: on a CPU a pass over eight costs little more
-than over one.
-"""
+"""With the token chosen, eight positions: a pass over eight costs a CPU little more than one."""
 
 Likeness = Callable[[int], Hashable]
 

@@ -15,15 +15,11 @@ from torch import Tensor
 from planner_ft.decoding.forward import SmallModel
 
 SHARED = 16
-"""Tokens that prompts must have in common for a pass of their own: below it, the pass costs more
-than it saves.
-"""
+"""Tokens that prompts must share for a pass of their own: below, it costs more than it saves."""
 
 
 class ModelDecoder:
-    """A model of transformers, with whatever adapter is active. Shorter prompts of a batch are
-    padded on the left.
-    """
+    """A transformers model with its active adapter; short prompts are padded left."""
 
     def __init__(self, model: Any, pad_id: int) -> None:
         self.model = model
@@ -46,11 +42,8 @@ where it does not say; `start(rows)` gives the forward passes of a batch.
 
 class _ModelPasses:
     """The forward passes of a batch. A single row is `wide`: after its prompt, it may be fed
-    several tokens at a time and have some taken back. In a batch all rows are fed one token at a
-    time, so that their positions stay aligned.
-
-    What all prompts of a batch begin with (the instruction, and a base model's vocabulary, most of
-    its prompt) is computed once.
+    several tokens at a time and have some taken back. In a batch all rows are fed one at a time, so
+    that their positions stay aligned. What all prompts of it begin with is computed once.
     """
 
     def __init__(self, decoder: ModelDecoder, rows: int) -> None:
@@ -93,9 +86,7 @@ class _ModelPasses:
         self.cache.batch_select_indices(index)
 
     def _begin_together(self, feeds: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
-        """Compute the common beginning of all prompts for one row, copy it to the others, and
-        return what is left of each, a token at least.
-        """
+        """Compute all prompts' common beginning once; what is left of each, a token at least."""
         from transformers.cache_utils import DynamicLayer
 
         columns = zip(*feeds, strict=False)
@@ -110,26 +101,18 @@ class _ModelPasses:
         return [feed[count:] for feed in feeds]
 
     def _forward(self, ids: Tensor, mask: Tensor, positions: Tensor, wanted: int) -> Tensor:
-        options = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
+        options: dict[str, Any] = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
+        options |= {"past_key_values": self.cache, "use_cache": True}
         output = self.decoder.model(
-            input_ids=ids,
-            attention_mask=mask,
-            position_ids=positions,
-            past_key_values=self.cache,
-            use_cache=True,
-            **options,
+            input_ids=ids, attention_mask=mask, position_ids=positions, **options
         )
         logits: Tensor = output.logits
         return logits
 
     def _padded(self, feeds: Sequence[Sequence[int]]) -> tuple[Tensor, Tensor]:
         """Ids padded on the left, and their mask."""
-        width = max(len(feed) for feed in feeds)
-        ids = torch.tensor(
-            [[self.decoder.pad_id] * (width - len(feed)) + list(feed) for feed in feeds],
-            device=self.device,
-        )
-        mask = torch.tensor(
-            [[0] * (width - len(feed)) + [1] * len(feed) for feed in feeds], device=self.device
-        )
-        return ids, mask
+        gaps = [max(map(len, feeds)) - len(feed) for feed in feeds]
+        rows = list(zip(gaps, feeds, strict=True))
+        ids = [[self.decoder.pad_id] * gap + list(feed) for gap, feed in rows]
+        mask = [[0] * gap + [1] * len(feed) for gap, feed in rows]
+        return torch.tensor(ids, device=self.device), torch.tensor(mask, device=self.device)

@@ -49,15 +49,13 @@ class Sampling:
 
     def seed_of(self, name: str) -> int:
         """The seed of one answer, of 128 bits; `name` tells it from those to other samples."""
-        return int.from_bytes(
-            hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()[:16]
-        )
+        digest = hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()
+        return int.from_bytes(digest[:16])
 
     def sampler(self, name: str, longest: int) -> Sampler:
         """The random numbers of one answer of at most `longest` tokens."""
-        return Sampler(
-            self.temperature, self.top_p, np.random.default_rng(self.seed_of(name)).random(longest)
-        )
+        numbers = np.random.default_rng(self.seed_of(name)).random(longest)
+        return Sampler(self.temperature, self.top_p, numbers)
 
 
 @dataclass(frozen=True)
@@ -75,35 +73,21 @@ class Sampler:
         By inversion over token ids, in float64: where rounding swaps two tokens of like
         probability, what is drawn stays the same.
         """
-        scores = np.nan_to_num(
-            logits.detach().double().cpu().numpy(), nan=-HUGE, posinf=HUGE, neginf=-HUGE
-        )
-        usable = (
-            np.full(len(scores), True)
-            if allowed is None
-            else np.unpackbits(allowed.view(np.uint8), bitorder="little")[: len(scores)] == 1
-        )
+        raw = logits.detach().double().cpu().numpy()
+        scores = np.nan_to_num(raw, nan=-HUGE, posinf=HUGE, neginf=-HUGE)
+        usable = np.full(len(scores), True)
+        if allowed is not None:
+            usable = np.unpackbits(allowed.view(np.uint8), bitorder="little")[: len(scores)] == 1
         if not usable.any():
             raise RuntimeError("the constraint allows no token")
-        weights = np.where(
-            usable, np.exp(np.minimum(scores - scores[usable].max(), 0) / self.temperature), 0
-        )
-        weights = weights if self.top_p == 1 else _nucleus(weights, self.top_p)
+        below = np.minimum(scores - scores[usable].max(), 0)
+        weights = np.where(usable, np.exp(below / self.temperature), 0)
+        if self.top_p < 1:
+            # The smallest set of tokens that holds `top_p` (Holtzman et al. 2020), the others at 0.
+            order = np.argsort(-weights, kind="stable")
+            before = weights[order].cumsum() - weights[order]
+            weights[order[before >= self.top_p * weights.sum()]] = 0
         cumulative = weights.cumsum()
+        drawn = np.searchsorted(cumulative, self.numbers[place] * cumulative[-1], side="right")
         # Rounding may put the number at the very end, where tokens without any weight may stand.
-        return min(
-            int(np.searchsorted(cumulative, self.numbers[place] * cumulative[-1], side="right")),
-            int(np.flatnonzero(weights)[-1]),
-        )
-
-
-def _nucleus(weights: Floats, top_p: float) -> Floats:
-    """The smallest set of tokens that holds `top_p` of the probability (Holtzman et al. 2020), the
-    others at 0.
-    """
-    order = np.argsort(-weights, kind="stable")
-    before = weights[order].cumsum() - weights[order]
-    kept = order[before < top_p * weights.sum()]
-    nucleus = np.zeros_like(weights)
-    nucleus[kept] = weights[kept]
-    return nucleus
+        return min(int(drawn), int(np.flatnonzero(weights)[-1]))

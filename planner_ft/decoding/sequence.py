@@ -1,11 +1,10 @@
-"""The state of one sequence: the tokens that are fed to the model, and those that its logits
-decide.
-"""
+"""The state of one sequence: tokens that are fed, and those that its logits decide."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Literal
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 import torch
@@ -13,7 +12,6 @@ from torch import Tensor
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
-from planner_ft.decoding.odds import Odds, Score, score
 from planner_ft.decoding.sampling import Sampler
 
 if TYPE_CHECKING:
@@ -22,14 +20,32 @@ if TYPE_CHECKING:
 RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
 LONGEST_RUN = 16
-"""Tokens in a row, of two kinds at most, behind which an enforced text ends: a small model can
-write "ggg" for ever.
-"""
+"""Tokens of two kinds at most in a row that end an enforced text: small models write "ggggg..."."""
 LONGEST_FORCED = 31
-"""Tokens that must follow and are fed with the choice before them: nothing of them is taken back,
-but for a value that is released.
-"""
+"""Tokens that must follow and are fed with the choice before them; only a release drops them."""
+LIKELIEST = 4
+"""Tokens of a place whose log-probabilities are kept."""
 FinishReason = Literal["stop", "length", "error"]
+
+
+class Score(NamedTuple):
+    """What the model itself holds of a token, whatever a constraint allows: its log-probability
+    (nats) over the whole vocabulary, and the likeliest others with theirs.
+    """
+
+    logprob: float
+    others: tuple[tuple[int, float], ...]
+
+
+def scores(ids: Sequence[int], logits: Tensor) -> Iterator[Score]:
+    """The scores of tokens, each at its place: logits in float32, shape (places, tokens)."""
+    values, likeliest = logits.topk(min(LIKELIEST, logits.shape[-1]))
+    own = logits.gather(-1, torch.tensor(ids, device=logits.device)[:, None])[:, 0]
+    columns = (own, torch.logsumexp(logits, -1), likeliest, values)
+    rows = zip(ids, *(column.tolist() for column in columns), strict=True)
+    for token, chosen, norm, found, at in rows:
+        others = ((one, value - norm) for one, value in zip(found, at, strict=True) if one != token)
+        yield Score(chosen - norm, tuple(others)[: LIKELIEST - 1])
 
 
 class SequenceState:
@@ -71,9 +87,7 @@ class SequenceState:
         self._propose()
 
     def feed(self, *, wide: bool) -> tuple[list[int], int]:
-        """The tokens of the next pass, and how many logits at their end are wanted. Nothing is
-        drafted for a sequence that is not `wide`.
-        """
+        """The tokens to feed, and how many logits; no draft where not `wide`."""
         self.forward_passes += 1
         self._wide = wide
         if not wide:
@@ -102,17 +116,23 @@ class SequenceState:
         self._propose()
         return len(draft) - right
 
-    def rate(self, places: Sequence[Odds], logits: Tensor) -> None:
-        """Take the odds of the places that the last pass decided, and their logits."""
-        for at, (place, row) in enumerate(zip(places, logits, strict=True), self._begun):
-            self.scores[at] = score(self.ids[at], place, row)
+    @property
+    def latest(self) -> list[int]:
+        """The tokens that the last pass decided."""
+        return self.ids[self._begun : self._begun + self.decided]
+
+    def rate(self, scored: Iterator[Score]) -> None:
+        """Take the scores of the latest tokens, the next ones of these."""
+        self.scores[self._begun : self._begun + self.decided] = itertools.islice(
+            scored, self.decided
+        )
 
     def _choice(self, best: int, logits: Tensor) -> int:
         """The token that the model takes, `best` where it may."""
         constraint = self.constraint
         if self.sampler is not None:
-            allowed = constraint.mask() if constraint else None
-            return self.sampler.draw(len(self.ids), logits, allowed)
+            mask = constraint.mask() if constraint else None
+            return self.sampler.draw(len(self.ids), logits, mask)
         if constraint is None:
             return best
         latest = {best, *self.ids[-LONGEST_RUN:]}
@@ -120,7 +140,12 @@ class SequenceState:
         if token is None and constraint.admits([best]):
             return best
         if token is None:
-            token = _best_allowed(constraint, logits)
+            # The most probable token of those allowed, even where logits are infinite or no numbers.
+            bits = np.unpackbits(constraint.mask().view(np.uint8), bitorder="little")
+            allowed = torch.from_numpy(np.flatnonzero(bits[: len(logits)])).to(logits.device)
+            if not len(allowed):
+                raise RuntimeError("the constraint allows no token")
+            token = int(allowed[logits[allowed].argmax()])
             doubt = float(logits[best]) - float(logits[token])
             if doubt > RELEASE and constraint.release(best):
                 return best
@@ -149,12 +174,3 @@ class SequenceState:
         if self.lookup is not None:
             draft += self.lookup.propose(min(LONGEST_DRAFT, room) - len(draft), draft)
         self.draft = draft[: constraint.admits(draft)] if constraint and draft else draft
-
-
-def _best_allowed(constraint: Answer, logits: Tensor) -> int:
-    """The most probable token of those allowed, even where logits are infinite or no numbers."""
-    bits = np.unpackbits(constraint.mask().view(np.uint8), bitorder="little")[: len(logits)]
-    allowed = torch.from_numpy(np.flatnonzero(bits)).to(logits.device)
-    if not len(allowed):
-        raise RuntimeError("the constraint allows no token")
-    return int(allowed[logits[allowed].argmax()])

@@ -46,9 +46,7 @@ class PlanExportSettings:
 
 @dataclass(frozen=True)
 class ExportedPlan:
-    """A file that was written, the report beside it, the account of what the file holds, and
-    sentences on where [0, 0] lies.
-    """
+    """A written file, the report beside it, its account, and where [0, 0] lies."""
 
     format: Format
     file: Path

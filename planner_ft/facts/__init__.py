@@ -23,58 +23,28 @@ Everything is cached by the text. No word list of a vehicle, no task name and no
 sentence asks for is in here: only what it states.
 """
 
-from planner_ft.facts.inputs import Input, read_input
-from planner_ft.facts.numbers import Number
-from planner_ft.facts.places import Geographic, Position
-from planner_ft.facts.reading import (
-    EXACT,
-    SCORING,
-    WAYPOINT,
-    Evidence,
-    Facts,
-    is_number,
-    is_place,
-    near,
-    read,
-    same_place,
-)
-from planner_ft.facts.words import (
-    Phrases,
-    Span,
-    corrections,
-    edit_distance,
-    is_known,
-    missing_words,
-    normalised,
-    phrases,
-    unknown_words,
-    words,
-)
-
-__all__ = [
-    "EXACT",
-    "SCORING",
-    "WAYPOINT",
-    "Evidence",
-    "Facts",
-    "Geographic",
-    "Input",
-    "Number",
-    "Phrases",
-    "Position",
-    "Span",
-    "corrections",
-    "edit_distance",
-    "is_known",
-    "is_number",
-    "is_place",
-    "missing_words",
-    "near",
-    "normalised",
-    "phrases",
-    "read",
-    "read_input",
-    "same_place",
-    "unknown_words",
-    "words",
-]
+from planner_ft.facts.inputs import Input as Input
+from planner_ft.facts.inputs import read_input as read_input
+from planner_ft.facts.numbers import Number as Number
+from planner_ft.facts.places import Geographic as Geographic
+from planner_ft.facts.places import Position as Position
+from planner_ft.facts.reading import EXACT as EXACT
+from planner_ft.facts.reading import SCORING as SCORING
+from planner_ft.facts.reading import WAYPOINT as WAYPOINT
+from planner_ft.facts.reading import Evidence as Evidence
+from planner_ft.facts.reading import Facts as Facts
+from planner_ft.facts.reading import is_number as is_number
+from planner_ft.facts.reading import is_place as is_place
+from planner_ft.facts.reading import near as near
+from planner_ft.facts.reading import read as read
+from planner_ft.facts.reading import same_place as same_place
+from planner_ft.facts.words import Phrases as Phrases
+from planner_ft.facts.words import Span as Span
+from planner_ft.facts.words import corrections as corrections
+from planner_ft.facts.words import edit_distance as edit_distance
+from planner_ft.facts.words import is_known as is_known
+from planner_ft.facts.words import missing_words as missing_words
+from planner_ft.facts.words import normalised as normalised
+from planner_ft.facts.words import phrases as phrases
+from planner_ft.facts.words import unknown_words as unknown_words
+from planner_ft.facts.words import words as words

@@ -78,7 +78,8 @@ class Ground:
             if any(_on_square(x, y, half) for half in self.lengths) or self._on_ring(x, y):
                 return True
         return any(
-            _on_grid(point[0] - x, point[1] - y, width, length, spacing)
+            _ends_lane(point[0] - x, point[1] - y, width, length, spacing)
+            or _ends_lane(point[1] - y, point[0] - x, length, width, spacing)
             for x, y, width, length in self.areas
             for spacing in self.spacings(width, length)
         )
@@ -106,19 +107,16 @@ class Ground:
 
     @functools.cached_property
     def _courses(self) -> list[float]:
-        return [
-            math.degrees(math.atan2(end[0] - start[0], end[1] - start[1]))
-            for start, end in self._lines
-        ]
+        ways = ((end[0] - start[0], end[1] - start[1]) for start, end in self._lines)
+        return [math.degrees(math.atan2(*way)) for way in ways]
 
     @functools.cached_property
     def areas(self) -> list[tuple[float, float, float, float]]:
         """Middle, width and length of every area that can be meant."""
         found = []
         signs = [(0, 0), *(itertools.product((1, -1), repeat=2) if self.corners else ())]
-        for (x, y), (width, length), (right, up) in itertools.product(
-            self.places, self.sizes, signs
-        ):
+        ways = itertools.product(self.places, self.sizes, signs)
+        for (x, y), (width, length), (right, up) in ways:
             found.append((x + right * width / 2, y + up * length / 2, width, length))
         for one, other in itertools.combinations(self.centres, 2):
             middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
@@ -135,15 +133,10 @@ class Ground:
 
 def _divides(point: Point, start: Point, end: Point, counts: Iterable[int]) -> bool:
     """Whether a point is in the middle of a line, or one of several evenly along it."""
-    return any(
-        math.dist(
-            point,
-            [one + (other - one) * step / parts for one, other in zip(start, end, strict=True)],
-        )
-        <= CLOSE
-        for parts in {2, *counts, *(count - 1 for count in counts)}
-        for step in range(1, parts)
-    )
+    (x, y), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
+    parts = {2, *counts, *(count - 1 for count in counts)}
+    shares = ((step / count) for count in parts for step in range(1, count))
+    return any(math.dist(point, (x + dx * share, y + dy * share)) <= CLOSE for share in shares)
 
 
 def _on_square(x: float, y: float, half: float) -> bool:
@@ -152,12 +145,8 @@ def _on_square(x: float, y: float, half: float) -> bool:
     return all(parts) and max(abs(x), abs(y)) >= half - CLOSE
 
 
-def _on_grid(x: float, y: float, width: float, length: float, spacing: float) -> bool:
-    """Whether a point seen from the middle is the end of a lane, along y or along x."""
-    return _ends_lane(x, y, width, length, spacing) or _ends_lane(y, x, length, width, spacing)
-
-
 def _ends_lane(across: float, along: float, width: float, length: float, spacing: float) -> bool:
+    """Whether a point seen from the middle of an area is the end of a lane."""
     lanes, place = width / spacing, (across + width / 2) / spacing
     return (
         abs(lanes - round(lanes)) < 1e-6

@@ -54,9 +54,7 @@ def straight_line(start: Point, heading: float, length: float) -> list[Point]:
 def survey_square(
     center: Point, half_side: float, start: str = "east", *, clockwise: bool = False
 ) -> list[Point]:
-    """Mid-sides and corners of the square, eight points from the named one on ("east" is the middle
-    of the east side).
-    """
+    """Mid-sides and corners of the square from the named one on ("east": a mid-side)."""
     first = SQUARE_STARTS.index(start)
     step = -1 if clockwise else 1
     ring = (SQUARE[(first + step * index) % len(SQUARE)] for index in range(len(SQUARE)))
@@ -64,9 +62,7 @@ def survey_square(
 
 
 def lane_count(extent: float, spacing: float) -> int | None:
-    """Lanes over `extent` when `spacing` divides it, else None: only then do two people count the
-    same lanes.
-    """
+    """Lanes over `extent` where `spacing` divides it: only then all count the same; else None."""
     lanes = extent / spacing
     return round(lanes) + 1 if abs(lanes - round(lanes)) < 1e-9 else None
 
@@ -105,9 +101,7 @@ def lawnmower(
 def circle(
     center: Point, radius: float, count: int, start_bearing: float, *, clockwise: bool
 ) -> list[Point]:
-    """`count` points evenly round the circle, the first one at `start_bearing` as seen from the
-    centre.
-    """
+    """`count` points evenly round the circle; the first at `start_bearing` from the centre."""
     step = 360 / count if clockwise else -360 / count
     return [offset(center, start_bearing + step * index, radius) for index in range(count)]
 

@@ -1,6 +1,4 @@
-"""What an answer can draw on: a command with its vehicle, or a task prompt with the task's
-parameters.
-"""
+"""What an answer can draw on: a command with its vehicle, or a task prompt with its parameters."""
 
 from __future__ import annotations
 
@@ -11,23 +9,10 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from planner_ft.facts import derived
+from planner_ft.facts import derived, reading
 from planner_ft.facts.geometry import Point
 from planner_ft.facts.lists import MULTIPLES, WORDS
-from planner_ft.facts.reading import (
-    EXACT,
-    NOBODY,
-    UNREAD,
-    WAYPOINT,
-    Evidence,
-    Facts,
-    is_number,
-    is_place,
-    near,
-    read,
-    same_place,
-    together,
-)
+from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
 from planner_ft.facts.words import missing_words, normalised, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
@@ -42,16 +27,16 @@ class Input:
     def __init__(
         self, text: str, vocabulary: Vocabulary, task: str = "", parameters: Any = None
     ) -> None:
-        self.facts: Facts = read(text)
+        self.facts = reading.read(text)
         self.vocabulary = vocabulary
         self.task: Task | None = vocabulary.task.get(task)
         self.parameters: dict[str, Any] = parameters if isinstance(parameters, dict) else {}
         self.is_task = parameters is not None
 
-    def stated(self, value: Any, parameter: Parameter, tolerance: float = EXACT) -> Evidence:
-        """Whether the text or a parameter of the task says a value: the evidence without the
-        vehicle's own places and without geometry.
-        """
+    def stated(
+        self, value: Any, parameter: Parameter, tolerance: float = reading.EXACT
+    ) -> Evidence:
+        """Evidence of the text and the task's parameters, without vehicle and geometry."""
         if self._is_own(value, parameter, tolerance):
             return Evidence("stated")
         found = self.facts.evidence(value, parameter, tolerance)
@@ -67,30 +52,31 @@ class Input:
         self,
         value: Any,
         parameter: Parameter,
-        tolerance: float = EXACT,
+        tolerance: float = reading.EXACT,
         before: Iterable[Point] = (),
     ) -> Evidence:
         """Where a value is from; a waypoint (WAYPOINT) may follow from those `before` it."""
         if parameter is WAYPOINT:
             return self._waypoint(value, tolerance, before)
-        if parameter.type == "position" and is_place(value) and self._is_vehicles(value):
+        place = is_place(value) and parameter.type == "position"
+        if place and tuple(value) in (self.vocabulary.home, self.vocabulary.unresolved):
             return Evidence("vehicle")
         if parameter.type == "polygon" and isinstance(value, list):
-            return together(self._corner(corner, tolerance) for corner in value)
+            return reading.together(self._corner(corner, tolerance) for corner in value)
         found = self.stated(value, parameter, tolerance)
         if found.kind != "nobody":
             return found
         if parameter.type == "position":
-            follows = is_place(value) and self._is_way_off(_point(value))
+            ground = self.ground if place else None
+            away = (ground.is_way_off(_point(value), at) for at in ground.places) if ground else ()
+            follows = any(away)
         else:
             follows = is_number(value) and any(near(value, one) for one in self.values(parameter))
         return Evidence("derived") if follows else found
 
     @functools.cached_property
     def ground(self) -> derived.Ground | None:
-        """What waypoints are derived from; None where numbers or a shape of the text cannot be read
-        with certainty.
-        """
+        """What waypoints are derived from; None where the text cannot be read with certainty."""
         facts, home = self.facts, _point(self.vocabulary.home)
         lengths = {number.value for number in facts.numbers("m") if number.value > 0}
         lengths |= {value for value in self._own("m") if value > 0}
@@ -104,9 +90,9 @@ class Input:
         bearings = {number.value % 360 for number in angles} | set(self._own("deg"))
         centres = tuple(place for place in places if place != home or place in self._places)
         # An area is the task's own where no other lengths are stated.
-        own = lengths <= set(self._own("m")) and self.parameters
+        own = self.parameters if lengths <= set(self._own("m")) else {}
         width, length, spacing = (
-            value if own and is_number(value := self.parameters.get(name)) else None
+            value if is_number(value := own.get(name)) else None
             for name in ("width", "length", "spacing")
         )
         sizes = ((width, length),) if width and length else ()
@@ -123,31 +109,20 @@ class Input:
 
     # ------------------------------------------------------------ places
 
-    def _is_vehicles(self, value: Sequence[float]) -> bool:
-        return tuple(value) in (self.vocabulary.home, self.vocabulary.unresolved)
-
-    def _is_way_off(self, point: Point) -> bool:
-        ground = self.ground
-        return ground is not None and any(ground.is_way_off(point, at) for at in ground.places)
-
     def _corner(self, corner: Any, tolerance: float) -> Evidence:
-        """A corner's coordinates may be those of two stated places: "the box from (0, 0) to (40,
-        20)".
-        """
+        """Its coordinates may be those of two places: "the box from (0, 0) to (40, 20)"."""
         if not is_place(corner):
             return NOBODY
         found = self.stated(corner, WAYPOINT, tolerance)
-        ground = self.ground if found.kind == "nobody" else None
-        if ground and ground.has_shape_through(_point(corner)):
+        if found.kind != "nobody":
+            return found
+        if self.ground and self.ground.has_shape_through(_point(corner)):
             return Evidence("derived")
         places = [*self._places, *((place.x, place.y) for place in self.facts.positions)]
-        places += [_point(self.vocabulary.home), _point(self.vocabulary.unresolved)]
-        crossed = all(
-            any(near(corner[axis], place[axis], tolerance) for place in places) for axis in (0, 1)
-        )
-        if found.kind != "nobody" or not crossed:
-            return UNREAD if found.kind == "nobody" and self.facts.loose else found
-        return Evidence("derived")
+        places += [self.vocabulary.home, self.vocabulary.unresolved]
+        if all(any(near(corner[at], place[at], tolerance) for place in places) for at in (0, 1)):
+            return Evidence("derived")
+        return UNREAD if self.facts.loose else found
 
     def _waypoint(self, value: Any, tolerance: float, before: Iterable[Point]) -> Evidence:
         if not is_place(value):
@@ -166,12 +141,11 @@ class Input:
 
     def _is_own(self, value: Any, parameter: Parameter, tolerance: float) -> bool:
         if parameter.type in ("number", "integer"):
-            own = (number for number in self._values if is_number(number))
+            own = filter(is_number, self._values)
             return is_number(value) and any(near(value, number, tolerance) for number in own)
         if parameter.type == "position":
-            return is_place(value) and any(
-                same_place(value, place, tolerance) for place in self._places
-            )
+            same = (reading.same_place(value, at, tolerance) for at in self._places)
+            return is_place(value) and any(same)
         own_texts = set(map(normalised, self.texts))
         items = value if isinstance(value, list) else [value]
         return bool(own_texts) and all(normalised(str(item)) in own_texts for item in items)
@@ -212,10 +186,8 @@ class Input:
     @functools.cached_property
     def _values(self) -> list[Any]:
         """Every value of the task's parameters, those of lists one by one."""
-        lists = (
-            value if isinstance(value, list) else [value] for value in self.parameters.values()
-        )
-        return [item for values in lists for item in values]
+        values = self.parameters.values()
+        return [one for value in values for one in (value if isinstance(value, list) else [value])]
 
     @functools.cached_property
     def texts(self) -> tuple[str, ...]:
@@ -232,15 +204,14 @@ def read_input(record: dict[str, Any], vocabulary: Vocabulary) -> Input:
     "task", "parameters"} of a task.
     """
     keys = ("prompt", "task", "parameters")
-    return _read_input(json.dumps({key: record.get(key) for key in keys}), vocabulary)
+    return _read_input(json.dumps([record.get(key) for key in keys]), vocabulary)
 
 
 @functools.lru_cache(maxsize=4096)
 def _read_input(text: str, vocabulary: Vocabulary) -> Input:
-    record = json.loads(text)
-    task = record["task"] is not None
-    parameters = (record["parameters"] or {}) if task else None
-    return Input(str(record["prompt"] or ""), vocabulary, str(record["task"]), parameters)
+    prompt, task, parameters = json.loads(text)
+    parameters = (parameters or {}) if task is not None else None
+    return Input(str(prompt or ""), vocabulary, str(task), parameters)
 
 
 def _point(place: Sequence[float]) -> Point:

@@ -14,9 +14,7 @@ from planner_ft.facts.numerals import AND, Row, unit_of
 from planner_ft.facts.words import edit_distance, is_known
 
 WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
-"""How plainly a number is said: with its unit, without, as half of a pair, in the unit of another
-number, in another way of reading the text.
-"""
+"""How plainly: with unit, without, half of a pair, in another's unit, in another reading."""
 THOROUGH = 6000
 """Characters of a text whose misspelt words are put right; what follows is read as it stands."""
 CHOICES = range(2)
@@ -76,17 +74,13 @@ class Number:
 
 @functools.lru_cache(maxsize=4096)
 def read_numbers(text: str) -> tuple[Number, ...]:
-    """Every number of a text in order, words included, in the plain way of reading it; "a minute"
-    is one minute, "half an hour" 1800 s.
-    """
+    """Every number of a text in order and in the plain way of reading it, words included."""
     return _plain(read_rows(text)[0])
 
 
 @functools.lru_cache(maxsize=4096)
 def read_all(text: str) -> tuple[Number, ...]:
-    """The numbers of a text in every way of reading it, in order; those that the plain way has not
-    are of rank REREAD and above.
-    """
+    """The numbers in every way of reading a text, in order; rank REREAD for not the plain one."""
     plain = dict.fromkeys(read_numbers(text))
     others = itertools.chain(_times(text), *map(_every, read_rows(text)))
     reread = (replace(one, rank=REREAD + (one.rank >= BARE)) for one in others if one not in plain)
@@ -94,9 +88,7 @@ def read_all(text: str) -> tuple[Number, ...]:
 
 
 def in_unit(text: str, unit: str | None) -> Iterator[Number]:
-    """The numbers of a text as values of a parameter in `unit`, bare ones and sums of neighbours
-    ("two minutes and thirty seconds") included.
-    """
+    """The numbers as values of a parameter in `unit`, bare ones and sums of neighbours too."""
     numbers = read_all(text)
     totals = list(_sums(numbers, unit))
     # "2 h 20 min" are no two hours.
@@ -189,9 +181,7 @@ def _sign(row: Row, index: int) -> int:
 
 
 def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[Number, int]]:
-    """The number of the tokens `first` to `after` with the unit behind it, and the token behind
-    that.
-    """
+    """The number of some tokens with the unit behind it, and the token behind that."""
     start, stop = row.tokens[first].start, row.tokens[max(first, after - 1)].end
     words = [row.word(after + place) for place in range(3)]
 
@@ -228,9 +218,7 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
 
 
 def _rate(row: Row, index: int) -> tuple[float, int]:
-    """The seconds of "per second", "/h", "an hour" at `index`, and the token behind; 0 where there
-    are none.
-    """
+    """The seconds of "per second", "/h", "an hour", and the token behind; 0 for none."""
     index += row.word(index) == "," and row.word(index + 1) == "per"
     if [row.word(index + place) for place in range(3)] == ["s", "-", "1"]:
         return 1.0, index + 3
@@ -250,36 +238,29 @@ def _counts(row: Row, index: int, number: Number) -> bool:
         return False
     word, last, second = row.word(index), row.word(index - 1), row.word(index - 2)
     added = last in AND or (last in ("a", "an") and second in AND)
-    stands = (
-        number.said == 1
-        and word == "one"
-        and last not in WORDS["before_one"]
-        and row.word(index + 1) not in DIGITS
-    )
+    lone = last not in WORDS["before_one"] and row.word(index + 1) not in DIGITS
+    stands = number.said == 1 and word == "one" and lone
     part = word in FRACTIONS and end == row.tokens[index].end and not added
     bearing = len(word) == 3 and word.isdigit() and word[0] == "0"
     things = _THINGS.match(text, end)
-    thing = things is not None and _is_thing(things[1])
-    return (
-        stands or part or bearing or thing or bool(_ANGLE.search(text, max(0, start - 24), start))
-    )
+    thing = things is not None and _is_thing(things[1].lower())
+    angle = bool(_ANGLE.search(text, max(0, start - 24), start))
+    return stands or part or bearing or thing or angle
 
 
 @functools.lru_cache(maxsize=2048)
 def _is_thing(word: str) -> bool:
     """Whether a word that ends with "s" names things, and is no unit nor near one."""
-    lowered = word.lower()
-    units = any(edit_distance(lowered, unit, 2) <= 2 for unit in UNITS)
-    return is_known(lowered) and lowered not in WORDS["no_things"] and not units
+    if not is_known(word) or word in WORDS["no_things"]:
+        return False
+    return not any(edit_distance(word, unit, 2) <= 2 for unit in UNITS)
 
 
 # ---------------------------------------------------------------- what numbers say together
 
 
 def _with_shared_units(text: str, numbers: list[Number]) -> Iterator[Number]:
-    """The numbers, the first side of an area with the unit that is said behind the second: "200 by
-    120 feet".
-    """
+    """The numbers; "200 by 120 feet" has the unit of both behind the second."""
     lengths = {number.start: number for number in numbers if number.unit == "m" and number.factor}
     for one in numbers:
         by = _BY.match(text, one.end) if one.unit is None else None
@@ -293,9 +274,7 @@ def neighbours(numbers: Iterable[Number], unit: str | None) -> list[Number]:
 
 
 def _sums(numbers: Iterable[Number], unit: str | None) -> Iterator[tuple[Number, bool]]:
-    """Neighbours that are one value ("1 h 20 min", "5 minutes 30", "two foot six"), and whether
-    their parts are none.
-    """
+    """Neighbours that are one value ("5 minutes 30"), and whether their parts are none."""
     for first, second in pairs(numbers, NEIGHBOURS) if unit in ("s", "m") else ():
         gap, value = second.start - first.end, 0.0
         if first.unit != unit or gap < 0 or not first.said:
@@ -326,9 +305,7 @@ def pairs(numbers: Iterable[Number], most: int) -> Iterator[tuple[Number, Number
 
 
 def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
-    """Bare numbers in the unit of the number before, when they are of a like size: "ten minutes
-    here and five there", "two minutes, no, three".
-    """
+    """Bare numbers in the unit of a like number before: "ten minutes here and five there"."""
     for before, number in itertools.pairwise(_plain(row)) if unit in ("s", "m") else ():
         like = before.said and 1 / MOST_TIMES < number.said / before.said < MOST_TIMES
         if number.unit is None and before.unit == unit and like and not number.counts:

@@ -10,37 +10,27 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from planner_ft.facts.lists import (
-    DIGITS,
-    FRACTIONS,
-    ORDINALS,
-    PARTS,
-    PRONOUNCED,
-    SCALES,
-    SMALL,
-    TURNS,
-    UNITS,
-    VULGAR,
-    WORDS,
-)
+from planner_ft.facts import lists
+from planner_ft.facts.lists import DIGITS, FRACTIONS, PARTS, SCALES, SMALL, UNITS, WORDS
 from planner_ft.facts.words import corrections, edit_distance
 
-AND, SAID = WORDS["and"], {**DIGITS, **PRONOUNCED}
+AND, SAID = WORDS["and"], {**DIGITS, **lists.PRONOUNCED}
 MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
 TURNED = ("of", "turn", "turns", "circle", "circles")
-NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *TURNS])
+NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *lists.TURNS])
 COUNTED = frozenset([*WORDS["articles"], *SMALL, *SCALES, *FRACTIONS, "-", "/", "of"])
 PASSED = 3
 """Words between a number and its unit: "quarter of a nautical mile"."""
 
 _TOKEN = re.compile(
     r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)"
-    rf"|(?:\d+\s?)?[{''.join(VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
+    rf"|(?:\d+\s?)?[{''.join(lists.VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
     r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
     re.IGNORECASE,
 )
 """A hyphen between letters is no token: "ninety-five" is ninety five."""
+_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])")
 
 Unit = tuple[str, float]
 Reading = tuple[float, int]
@@ -54,9 +44,7 @@ class Token(NamedTuple):
 
 
 class Row:
-    """The tokens of a text: numbers, words in lower case and signs; digits and letters that stand
-    together ("5m") are apart.
-    """
+    """The tokens of a text: numbers, words in lower case, signs; "5m" are two."""
 
     def __init__(self, text: str, tokens: list[Token]) -> None:
         self.text, self.tokens = text, tokens
@@ -65,21 +53,17 @@ class Row:
     def of(cls, text: str) -> Row:
         """A text as it stands; "right angle" is one word, "tree minutes" are three."""
         row = cls(text, [Token(match[0].lower(), *match.span()) for match in _TOKEN.finditer(text)])
-        for index, (word, start, _end) in enumerate(row.tokens):
+        for index, (word, start, end) in enumerate(row.tokens):
             before, following = row.word(index - 1), row.word(index + 1)
-            if word in PRONOUNCED and (
+            if word in lists.PRONOUNCED and (
                 following in SAID
                 or (len(following) > 3 and following in UNITS)
                 or (before in SAID and row.gap(index) == "-")
             ):
-                row._write(index, PRONOUNCED[word])
+                row._write(index, lists.PRONOUNCED[word])
             elif word in ("angle", "angles") and before == "right":
-                row.tokens[index - 1 : index + 1] = [
-                    Token("rightangle", start, row.tokens[index].end)
-                ]
-            elif (
-                word == "other" and before == "every" and len(following) > 2 and following in UNITS
-            ):
+                row.tokens[index - 1 : index + 1] = [Token("rightangle", start, end)]
+            elif (before, word) == ("every", "other") and len(following) > 2 and following in UNITS:
                 row._write(index, "two")
         return row
 
@@ -129,7 +113,9 @@ class Row:
                 yield figure + MIXED[following], index + 2
                 return
             yield from self._with_fraction(figure, index + 1)
-            yield from self._thousands(index)
+            _word, start, end = self.tokens[index]
+            if (whole := _THOUSANDS.match(self.text, start)) and whole.end() > end:  # "1,250"
+                yield float(whole[0].replace(",", "")), index + 1 + 2 * whole[0].count(",")
         elif word in FRACTIONS:
             dozen = index + 1 + (following in ("a", "of"))
             if self.word(dozen) == "dozen":
@@ -138,7 +124,7 @@ class Row:
                 yield FRACTIONS[word], index + 1
         elif word in ("a", "an", "per", "each", "every"):
             if self._is_part(index + 1):
-                yield ORDINALS[following], index + 2
+                yield lists.ORDINALS[following], index + 2
             elif following in SCALES or following == "couple":
                 yield from self._in_words(index + 1)
             # A letter alone is rather a name or an article than a unit.
@@ -167,9 +153,7 @@ class Row:
         return FRACTIONS[self.word(place)], place + 1
 
     def unit(self, index: int) -> tuple[Unit | None, int]:
-        """The unit at `index`, with its factor, and the index behind it; words that may stand
-        before it are passed over.
-        """
+        """The unit at `index` and the index behind it; words that may stand before are passed."""
         for _passed in range(PASSED):
             index += self.word(index) in WORDS["beside_unit"]
         if self.word(index) == "per" and self.word(index + 1) == "cent":
@@ -188,18 +172,8 @@ class Row:
             and not (before in COUNTED or before in WORDS["whole"] or before[:1].isdigit())
         )
 
-    def _thousands(self, index: int) -> Iterator[Reading]:
-        """ "1,250" as one number."""
-        match = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])").match(
-            self.text, self.tokens[index].start
-        )
-        if match and match.end() > self.tokens[index].end:
-            yield float(match[0].replace(",", "")), index + 1 + 2 * match[0].count(",")
-
     def _spoken(self, index: int) -> Iterator[Reading]:
-        """A number in words: digit by digit as over the radio ("one two zero"), or "one hundred and
-        twenty", "one eighty".
-        """
+        """A number in words: "one two zero" as over the radio, or "one hundred and twenty"."""
         said = self._digits(index)
         radio = [(float(said[:count]), index + count) for count in range(len(said), 1, -1)]
         words = list(self._in_words(index))
@@ -212,24 +186,20 @@ class Row:
         if len(said) > 2 or sure:
             yield radio[0]
         elif part in PARTS or self._is_part(after):
-            yield value * {**ORDINALS, **PARTS}[part], after + 1
+            yield value * {**lists.ORDINALS, **PARTS}[part], after + 1
         else:
             yield from self._with_fraction(value, after)
-        others = (*radio, *words)
-        yield from (one for one in others if len(said) == 2 or self._splits(one[1]))
-        yield from self._hundreds(index)
-
-    def _hundreds(self, index: int) -> Iterator[Reading]:
-        """ "One eighty" is 180, "two twenty-five" 225."""
+        for number, behind in (*radio, *words):
+            if len(said) == 2 or self._splits(behind):
+                yield number, behind
+        # "One eighty" is 180, "two twenty-five" 225.
         first, tens, ones = (SMALL.get(self.word(index + place), 0) for place in range(3))
         if 0 < first < 10 <= tens:
             more = 0 < ones < 10
             yield 100 * first + tens + more * ones, index + 2 + more
 
     def _in_words(self, start: int) -> Iterator[Reading]:
-        """A number in words: "one thousand six hundred and seventy-four", "one point two"; then
-        those that its first words are alone.
-        """
+        """A number in words ("one point two"), then those that its first words are alone."""
         index, total, current, found = start, 0.0, 0.0, list[Reading]()
         while True:
             word, skip = self.word(index), 0
@@ -273,7 +243,7 @@ class Row:
     def _is_part(self, index: int) -> bool:
         """Whether an ordinal is a part of a unit: "tenth of an hour", "eighth of a turn"."""
         word, of, article = (self.word(index + place) for place in range(3))
-        return word in ORDINALS and of == "of" and article in ("a", "an", "the")
+        return word in lists.ORDINALS and of == "of" and article in ("a", "an", "the")
 
 
 @functools.lru_cache(maxsize=4096)
@@ -292,8 +262,8 @@ def unit_of(word: str) -> Unit | None:
 
 def _figure(word: str) -> float | None:
     """The value of a token in figures: "1,200", "2/3", "1½", "1e3"."""
-    if word[-1:] in VULGAR:
-        return float(word[:-1] or 0) + VULGAR[word[-1]]
+    if word[-1:] in lists.VULGAR:
+        return float(word[:-1] or 0) + lists.VULGAR[word[-1]]
     if not word[-1:].isdigit():
         return None
     above, _, below = word.replace(",", "").partition("/")
@@ -301,9 +271,7 @@ def _figure(word: str) -> float | None:
 
 
 def _joins(current: float, following: float, total: float) -> bool:
-    """Whether `following` continues the number: five after twenty, twenty after a hundred, six
-    after a thousand.
-    """
+    """Whether a number goes on: five after twenty, twenty after a hundred, six after a thousand."""
     if current == 0:
         return total > 0
     if current >= 100 and current % 100 == 0:

@@ -9,9 +9,10 @@ they have minutes.
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planner_ft.facts.lists import COMPASS, SHORT, TURNS, UNITS
 from planner_ft.facts.numbers import REREAD, WRITTEN, Number, pairs, read_numbers, read_rows
@@ -24,6 +25,7 @@ BLANK = "|"
 """Stands in place of what was read already."""
 _DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
 _METRES = r"(?:met(?:re|er)s?|m)\b"
+_MINUS = ("-", "−", "–")
 _SIGN = r"(?:minus |negative |[-−–])"
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
@@ -121,16 +123,16 @@ class Geographic:
 def read_geographic(text: str) -> tuple[Geographic, ...]:
     """The geographic positions of a text."""
     found = [match for match in _COORDINATE.finditer(text) if _is_degrees(match)]
-    result, index = list[Geographic](), 0
-    while index < len(found):
-        one, two = found[index], found[index + 1] if index + 1 < len(found) else None
-        if two is not None and _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start()):
-            result.append(_geographic(one, two))
-            index += 2
-        else:
-            if one["minutes"]:
-                result.append(_geographic(one, None))
-            index += 1
+    result, skip = list[Geographic](), False
+    for one, two in itertools.zip_longest(found, found[1:]):
+        paired = two is not None and _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
+        if not skip and (paired or one["minutes"]):
+            parts = (one, two) if paired else (one,)
+            (first, axis), (second, other) = [*map(_degrees, parts), (None, "")][:2]
+            turned = axis == "lon" or other == "lat"
+            both = (second, first) if turned else (first, second)
+            result.append(Geographic(*both, one.start(), parts[-1].end()))
+        skip = bool(paired) and not skip
     return tuple(result)
 
 
@@ -146,25 +148,14 @@ def _is_degrees(match: re.Match[str]) -> bool:
     )
 
 
-def _geographic(one: re.Match[str], two: re.Match[str] | None) -> Geographic:
-    values = [(_degrees(match), _axis(match)) for match in (one, two) if match is not None]
-    (first, axis), (second, other) = [*values, (None, "")][:2]
-    turned = axis == "lon" or other == "lat"
-    latitude, longitude = (second, first) if turned else (first, second)
-    return Geographic(latitude, longitude, one.start(), (two or one).end())
-
-
-def _axis(match: re.Match[str]) -> str:
-    said = (match["word"] or match["lead"] or match["hemisphere"] or "").strip().lower()
-    return "" if not said else "lon" if said.startswith(("lo", "ln", "e", "w")) else "lat"
-
-
-def _degrees(match: re.Match[str]) -> float:
-    value = float(match["degrees"]) + float(match["minutes"] or 0) / 60
-    value += float(match["seconds"] or 0) / 3600
+def _degrees(match: re.Match[str]) -> tuple[float, str]:
+    """The value of a coordinate, and "lat" or "lon" where that is said."""
     letter = (match["lead"] or match["hemisphere"] or "").strip().lower()
-    negative = match["sign"] in ("-", "−", "–") or letter[:1] in ("s", "w")
-    return -value if negative else value
+    said = (match["word"] or letter).strip().lower()
+    axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
+    degrees, minutes, seconds = (float(match[n] or 0) for n in ("degrees", "minutes", "seconds"))
+    value = degrees + minutes / 60 + seconds / 3600
+    return -value if match["sign"] in _MINUS or letter[:1] in ("s", "w") else value, axis
 
 
 def without_geographic(text: str) -> str:
@@ -197,16 +188,26 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
     """The positions that numbers of a text can be, the plainest first."""
     found = dict[Position, int]()
     for first, second in pairs((one for one in numbers if one.stop), MOST_BETWEEN):
+        start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)
-        if between and not _CLOCK.fullmatch(text, first.start, second.stop):
-            certain = _is_certain(text, first.start, second.end)
-            end = _way_end(text, first.start, second.end)
+        if between and not _CLOCK.fullmatch(text, start, second.stop):
+            plain = _AT.search(text[:start][-16:]) and _PLAIN.fullmatch(text[start:end])
+            opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
+            # "120 east 45 north", but not "40, 40 due east".
+            way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
             rank = max(first.rank, second.rank)
             for x, y in _readings(text, first, second):
-                place = Position(x, y, first.start, end, certain)
+                place = Position(x, y, start, way.end() if way else end, bool(plain or opened))
                 found[place] = min(rank, found.get(place, REREAD))
-    for place, unit in _other_units(text, list(found)):
-        found[place] = found[unit] = found[place]
+    # A sentence may say the unit of its positions: "fence corners, in kilometres: ...".
+    known = list(found)
+    for match in _COORDINATE_UNIT.finditer(text):
+        factor = UNITS[match[1].lower()][1]
+        begin, stop = text.rfind(". ", 0, match.start()) + 1, text.find(". ", match.end())
+        for place in known:
+            if begin <= place.start and place.end <= (stop if stop >= 0 else len(text)):
+                x, y = round(place.x * factor, 2), round(place.y * factor, 2)
+                found[place] = found[replace(place, x=x, y=y)] = found[place]
     return tuple(sorted(found, key=lambda place: found[place] >= REREAD))
 
 
@@ -228,37 +229,9 @@ def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float,
 
 def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None]:
     """The coordinate with the sign of its direction, and the axis that the direction gives."""
-    if way is None:
-        return number.said, None
-    letter = way[1][0].lower()
-    return (-number.said if letter in "ws" else number.said), "x" if letter in "ew" else "y"
-
-
-def _way_end(text: str, start: int, end: int) -> int:
-    """The end of a coordinate with its direction, where the one before has a direction, too: "120
-    east 45 north", but not "40, 40 due east".
-    """
-    way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
-    return way.end() if way else end
-
-
-def _is_certain(text: str, start: int, end: int) -> bool:
-    before, said = text[:start][-16:], text[start:end]
-    plain = _AT.search(before) and _PLAIN.fullmatch(said)
-    return bool(_OPENED.search(before) or plain or _AXES.search(said))
-
-
-def _other_units(text: str, places: list[Position]) -> Iterator[tuple[Position, Position]]:
-    """Positions in a sentence that says their unit ("fence corners, in kilometres: ..."), with what
-    they are in metres.
-    """
-    for match in _COORDINATE_UNIT.finditer(text):
-        factor = UNITS[match[1].lower()][1]
-        begin, end = text.rfind(". ", 0, match.start()) + 1, text.find(". ", match.end())
-        for place in places:
-            if begin <= place.start and place.end <= (end if end >= 0 else len(text)):
-                x, y = round(place.x * factor, 2), round(place.y * factor, 2)
-                yield place, Position(x, y, place.start, place.end, place.certain)
+    letter = way[1][0].lower() if way else "?"
+    axis = None if way is None else "x" if letter in "ew" else "y"
+    return -number.said if letter in "ws" else number.said, axis
 
 
 @functools.lru_cache(maxsize=4096)
@@ -266,13 +239,10 @@ def unpaired_coordinates(text: str) -> bool:
     """Whether a number is said as a coordinate ("x 40 ...") and has no partner."""
     paired = [(place.start, place.end) for place in read_positions(text)]
     return any(
-        number.unit in ("m", None)
-        and not any(start <= number.start < end for start, end in paired)
-        and (
-            _AXIS_BEFORE.search(text[: number.start][-24:])
-            or _AXIS_BEHIND.match(text[number.end : number.end + 40])
-        )
-        for number in read_numbers(text)
+        _AXIS_BEFORE.search(text[: one.start][-24:])
+        or _AXIS_BEHIND.match(text[one.end : one.end + 40])
+        for one in read_numbers(text)
+        if one.unit in ("m", None) and not any(at <= one.start < end for at, end in paired)
     )
 
 
@@ -287,32 +257,24 @@ def read_bearings(text: str) -> tuple[Number, ...]:
         if match[0].upper() in SHORT:
             angle = 22.5 * SHORT.index(match[0].upper())
             found.append(Number(angle, WRITTEN, *match.span(), "deg", angle))
-        else:
-            points = _POINT.finditer(text, *match.span())
-            found += _points([(point[0].lower(), *point.span()) for point in points], text)
+            continue
+        # As many words as possible in each: "north" and "south-east" of "north south-east".
+        points = list(_POINT.finditer(text, *match.span()))
+        while points:
+            for many in (3, 2, 1):
+                name = "-".join(point[0].lower() for point in points[:many])
+                if name in COMPASS:
+                    break
+            end = points[min(many, len(points)) - 1].end()
+            ending, angle = _ENDING.match(text, end), 22.5 * COMPASS.index(name)
+            end = ending.end() if ending else end
+            found.append(Number(angle, WRITTEN, points[0].start(), end, "deg", angle))
+            points = points[many:]
     return tuple(found)
 
 
-def _points(points: list[tuple[str, int, int]], text: str) -> Iterator[Number]:
-    """The directions of neighbouring compass words, as many as possible in each: "north" and
-    "south-east" of "north south-east".
-    """
-    while points:
-        for many in (3, 2, 1):
-            name = "-".join(word for word, _start, _end in points[:many])
-            if name in COMPASS:
-                break
-        start, end = points[0][1], points[min(many, len(points)) - 1][2]
-        ending = _ENDING.match(text, end)
-        angle = 22.5 * COMPASS.index(name)
-        yield Number(angle, WRITTEN, start, ending.end() if ending else end, "deg", angle)
-        points = points[many:]
-
-
 def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
-    """Angles in degrees of the turns that a text speaks of: full, once, half, three quarters,
-    twice, three times.
-    """
+    """Angles in degrees of the turns of a text: full, once, half, twice, three times."""
     for row in read_rows(text):
         for index, (word, start, end) in enumerate(row.tokens):
             turn = TURNS.get(word, 0.0)

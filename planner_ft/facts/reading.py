@@ -9,30 +9,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
+from planner_ft.facts import numbers, places
 from planner_ft.facts.lists import SCALES, SMALL, WORDS
-from planner_ft.facts.numbers import (
-    AS_BEFORE,
-    BARE,
-    IN_PAIR,
-    REREAD,
-    THOROUGH,
-    Number,
-    in_unit,
-    read_all,
-    read_numbers,
-)
-from planner_ft.facts.places import (
-    Geographic,
-    Position,
-    positions_of,
-    read_bearings,
-    read_geographic,
-    read_positions,
-    turns_of,
-    unpaired_coordinates,
-    without_geographic,
-    written_pairs,
-)
+from planner_ft.facts.numbers import AS_BEFORE, BARE, IN_PAIR, REREAD, THOROUGH, Number
+from planner_ft.facts.places import Geographic, Position
 from planner_ft.facts.words import Phrases, Span, is_known, phrases
 from planner_ft.vocabulary import Parameter
 
@@ -112,12 +92,14 @@ class Facts:
         coordinates are neither.
         """
         if unit not in self._numbers:
-            found = in_unit(self._local, "deg" if unit == "degC" else unit)
-            spans = [(place.start, place.end) for place in read_positions(self._local)]
-            certain, inside = _covered(written_pairs(self._local)), _covered(spans)
+            found = numbers.in_unit(self._local, "deg" if unit == "degC" else unit)
+            spans = [(place.start, place.end) for place in places.read_positions(self._local)]
+            certain, inside = _covered(places.written_pairs(self._local)), _covered(spans)
             self._numbers[unit] = tuple(
                 replace(one, rank=IN_PAIR) if one.rank == BARE and one.start in inside else one
-                for one in sorted(dict.fromkeys(found), key=_plainness)
+                for one in sorted(
+                    dict.fromkeys(found), key=lambda one: (one.value, one.rank, one.start)
+                )
                 if not (one.counts and unit in MEASURES)
                 and one.start not in certain
                 and abs(one.value) < LARGEST
@@ -127,28 +109,28 @@ class Facts:
     @functools.cached_property
     def positions(self) -> tuple[Position, ...]:
         """Local coordinates in metres that the text can state, the plainest reading first."""
-        found = positions_of(self._local, self._all)
+        found = places.positions_of(self._local, self._all)
         return tuple(place for place in found if max(abs(place.x), abs(place.y)) < LARGEST)
 
     @functools.cached_property
     def geographic(self) -> tuple[Geographic, ...]:
         """Positions in degrees. They are neither local positions nor numbers."""
-        return read_geographic(self.text)
+        return places.read_geographic(self.text)
 
     @functools.cached_property
     def bearings(self) -> tuple[Number, ...]:
         """Compass directions, in degrees clockwise from north."""
-        return read_bearings(self._local)
+        return places.read_bearings(self._local)
 
     @functools.cached_property
     def turns(self) -> tuple[Number, ...]:
         """Angles of parts and numbers of circles: "half", "once round", "three times"."""
-        return tuple(dict.fromkeys(turns_of(self._local, self._all)))
+        return tuple(dict.fromkeys(places.turns_of(self._local, self._all)))
 
     @functools.cached_property
     def counts(self) -> tuple[float, ...]:
         """The bare numbers of the text, those that count things included."""
-        return tuple(number.said for number in read_numbers(self._local))
+        return tuple(number.said for number in numbers.read_numbers(self._local))
 
     @property
     def phrases(self) -> Phrases:
@@ -158,14 +140,12 @@ class Facts:
     @functools.cached_property
     def unread(self) -> tuple[str, ...]:
         """Why numbers of the text could not be read with certainty, for an operator."""
-        return tuple(_notes(without_geographic(self.text)[:THOROUGH]))
+        return tuple(_notes(places.without_geographic(self.text)[:THOROUGH]))
 
     @functools.cached_property
     def loose(self) -> tuple[float, ...]:
-        """The numbers that coordinates can be made of, where one that is said as a coordinate has
-        no partner.
-        """
-        if self.unread or not unpaired_coordinates(self._local[:THOROUGH]):
+        """Numbers that coordinates can be of, where one of these has no partner."""
+        if self.unread or not places.unpaired_coordinates(self._local[:THOROUGH]):
             return ()
         return tuple(dict.fromkeys(one.said for one in self._all if one.unit in ("m", None)))
 
@@ -181,32 +161,34 @@ class Facts:
         items = value if isinstance(value, list) else [value]
         if kind == "polygon":
             return together(self.evidence(corner, WAYPOINT, tolerance) for corner in items)
-        return together(self._text(str(item)) for item in items)
+        texts = [str(item) for item in items]
+        spans = (filter(None, self.phrases.spans(text)) for text in texts)
+        return together(
+            NOBODY if self.phrases.missing(text) else Evidence("stated", tuple(found))
+            for text, found in zip(texts, spans, strict=True)
+        )
 
     def _number(self, value: float, parameter: Parameter, tolerance: float) -> Evidence:
-        found = _near(self.numbers(parameter.unit), value, tolerance)
+        angle = parameter.unit == "deg"
+        known = self.numbers(parameter.unit)
+        found = [number for number in known if near(value, number.value, tolerance)]
         # An arc of more than a circle is no direction: "half round, the south wall too".
-        if parameter.unit == "deg" and (parameter.maximum or 360) <= 360:
-            found += [angle for angle in self.bearings if near(value % 360, angle.value)]
+        if angle and (parameter.maximum or 360) <= 360:
+            found += [one for one in self.bearings if near(value % 360, one.value)]
         plainest = min((number.rank for number in found), default=REREAD + 2)
-        turned = [
-            turn
-            for turn in (self.turns if parameter.unit == "deg" and plainest else ())
-            if near(abs(value), turn.value, tolerance)
-        ]
-        if turned:
+        turns = self.turns if angle and plainest else ()
+        if turned := [turn for turn in turns if near(abs(value), turn.value, tolerance)]:
             return Evidence("derived", _mentions(turned))
-        if found:
-            best = [number for number in found if number.rank == plainest]
-            return Evidence(_kind(best[0]), _mentions(best), plainest)
-        return UNREAD if self.unread else NOBODY
-
-    # ------------------------------------------------------------ places and texts
+        if not found:
+            return UNREAD if self.unread else NOBODY
+        best = [number for number in found if number.rank == plainest]
+        plain = plainest != AS_BEFORE and abs(best[0].factor - 1) <= 1e-9
+        kind: Kind = "stated" if plain else "converted" if best[0].said else "derived"
+        return Evidence(kind, _mentions(best), plainest)
 
     def _position(self, value: Sequence[float], tolerance: float) -> Evidence:
-        found = [
-            place for place in self.positions if same_place(value, (place.x, place.y), tolerance)
-        ]
+        here = self.positions
+        found = [place for place in here if same_place(value, (place.x, place.y), tolerance)]
         if found:
             return Evidence("stated", _mentions(found))
         loose = self.loose and all(
@@ -214,19 +196,14 @@ class Facts:
         )
         return UNREAD if self.unread else Evidence("stated") if loose else NOBODY
 
-    def _text(self, value: str) -> Evidence:
-        if self.phrases.missing(value):
-            return NOBODY
-        return Evidence("stated", tuple(spans for spans in self.phrases.spans(value) if spans))
-
     @functools.cached_property
     def _local(self) -> str:
         """The text with blanks for geographic positions."""
-        return without_geographic(self.text)
+        return places.without_geographic(self.text)
 
     @property
     def _all(self) -> tuple[Number, ...]:
-        return read_all(self._local)
+        return numbers.read_all(self._local)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -270,19 +247,8 @@ def together(parts: Iterable[Evidence]) -> Evidence:
     return Evidence(kind, (tuple(spans),) if spans else ())
 
 
-def _kind(number: Number) -> Kind:
-    if number.rank == AS_BEFORE or abs(number.factor - 1) > 1e-9:
-        return "converted" if number.said else "derived"
-    return "stated"
-
-
 def _mentions(found: Iterable[Number | Position]) -> tuple[tuple[Span, ...], ...]:
     return tuple(((start, end),) for start, end in sorted({(one.start, one.end) for one in found}))
-
-
-def _near(numbers: tuple[Number, ...], value: float, tolerance: float) -> list[Number]:
-    """The numbers that `value` is near to."""
-    return [number for number in numbers if near(value, number.value, tolerance)]
 
 
 def _covered(spans: Iterable[Span]) -> set[int]:
@@ -295,17 +261,8 @@ def _notes(text: str) -> Iterator[str]:
         yield "The command has words in another script; its numbers are not checked against it."
         return
     words = re.findall(r"[^\W\d_]{2,}", text)
+    unchecked = "numbers are not checked against it."
     if len(words) >= FEWEST_WORDS and sum(map(is_known, words)) * 2 < len(words):
-        yield (
-            "The command is mostly in words that are not known; its numbers are not checked"
-            " against it."
-        )
+        yield f"The command is mostly in words that are not known; its {unchecked}"
     if unread := _UNREAD.search(text):
-        yield (
-            f"The command has a number that could not be read ({unread[0][:24]}); numbers are not"
-            " checked against it."
-        )
-
-
-def _plainness(number: Number) -> tuple[float, int, int]:
-    return number.value, number.rank, number.start
+        yield f"The command has a number that could not be read ({unread[0][:24]}); {unchecked}"

@@ -106,11 +106,8 @@ def _long_words() -> list[str]:
 def _shortens(word: str, whole: str) -> bool:
     """Whether a word has half of the letters of `whole` at least, in order, the first one first."""
     letters = iter(whole)
-    return (
-        whole[0] == word[0]
-        and len(word) < len(whole) <= 2 * len(word)
-        and all(letter in letters for letter in word)
-    )
+    sized = whole[0] == word[0] and len(word) < len(whole) <= 2 * len(word)
+    return sized and all(letter in letters for letter in word)
 
 
 def _resembles(written: str, meant: str) -> bool:
@@ -125,9 +122,7 @@ def _resembles(written: str, meant: str) -> bool:
 
 
 class Phrases:
-    """The words of a text by every form that counts as the same word: without a possessive ending,
-    in its parts ("red-white").
-    """
+    """The words of a text by every form of them: without possessive ending, in parts."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -143,16 +138,12 @@ class Phrases:
         self._places: dict[str, list[Span]] = {}
 
     def missing(self, phrase: str, *, misspelt: bool = True) -> list[str]:
-        """Words of a phrase that the text does not say; with `misspelt`, a word that resembles one
-        says it.
-        """
+        """Words of a phrase that the text lacks; with `misspelt`, a resembling one counts."""
         said = self.places if misspelt else self._exact
         return [word for word in words(phrase) if not said(word)]
 
     def spans(self, phrase: str) -> list[tuple[Span, ...]]:
-        """The places of a phrase: where it stands word for word, else its words near each other;
-        none where half of them are not said.
-        """
+        """The places of a phrase, word for word or near each other; none if half is not said."""
         whole = self._whole(normalised(phrase))
         if whole:
             return [(span,) for span in whole]
@@ -213,21 +204,12 @@ def missing_words(text: str, phrase: str, *, misspelt: bool) -> list[str]:
 
 
 def _nearest(options: list[list[Span]]) -> list[Span]:
-    """One place per word so that they stand near each other: all near one of the last word, mostly
-    a noun.
-    """
-    best: list[Span] = []
-    for anchor in options[-1]:
-        chosen = [_closest(places, anchor) for places in options]
-        if not best or _width(chosen) < _width(best):
-            best = chosen
+    """One place per word so that all stand near one of the last word, mostly a noun."""
+    found = [[_closest(places, anchor) for places in options] for anchor in options[-1]]
+    best = min(found, key=lambda spans: max(span[1] for span in spans) - min(spans)[0])
     return [span for span in best if abs(span[0] - best[-1][0]) <= FARTHEST]
 
 
 def _closest(places: list[Span], anchor: Span) -> Span:
     index = bisect.bisect_left(places, anchor)
     return min(places[max(0, index - 1) : index + 1], key=lambda span: abs(span[0] - anchor[0]))
-
-
-def _width(spans: list[Span]) -> int:
-    return max(end for _start, end in spans) - min(start for start, _end in spans)

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.data.completeness import completeness_problems
 from planner_ft.data.curated import find_source
 from planner_ft.data.leakage import near_duplicate
+from planner_ft.data.stated import completeness_problems
 from planner_ft.data.validation import canonical_record, record_problems
 from planner_ft.decoding.constraints import RAN_ON, TOO_LONG, UNPAIRED
 from planner_ft.document import PlanDocument
@@ -133,7 +133,7 @@ def sample(
     }
     problems = (
         record_problems("mission", record, vocabulary)
-        or list(completeness_problems("mission", record, vocabulary))
+        or list(completeness_problems(record, vocabulary))
         or list(text_problems(record, _texts_of(proposed)))
     )
     if problems:

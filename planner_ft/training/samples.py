@@ -111,8 +111,7 @@ class Split:
         """With `count` copies of each record with other values where it has some; a part of them
         goes on with another record. Raises PlannerError at task level.
         """
-        from planner_ft.data.joining import joined
-        from planner_ft.data.varying import varied
+        from planner_ft.data.varying import joined, varied
 
         if self.level == "task":
             raise PlannerError("--vary is for the mission level; --augment makes samples of both")

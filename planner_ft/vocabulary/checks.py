@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 import tomllib
 from collections import Counter
@@ -33,23 +34,23 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def _is_position(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
-
-
 def _are_names(value: Any) -> bool:
     return isinstance(value, list) and all(map(_is_text, value))
 
 
 def _are_tables(value: Any) -> bool:
-    return isinstance(value, dict) and all(isinstance(entry, dict) for entry in value.values())
+    entries = value.values() if isinstance(value, dict) else value
+    return isinstance(value, dict | list) and all(isinstance(entry, dict) for entry in entries)
 
 
 KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
     "text": ("a text", _is_text),
     "flag": ("true or false", lambda value: isinstance(value, bool)),
     "number": ("a number", _is_number),
-    "position": ("a position [x, y]", _is_position),
+    "position": (
+        "a position [x, y]",
+        lambda value: isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)),
+    ),
     "names": ("a list of names", _are_names),
 }
 """Per kind of value its name in words, and whether a value is of it."""
@@ -60,23 +61,22 @@ NESTED = {"task": ("parameters", "skills"), "skill": ("parameters",)}
 # ---------------------------------------------------------------- the shape of a definition
 
 
-def shape_problems(raw: Table, phrases: Table) -> list[str]:
+def shape_problems(raw: Table, phrases: Table) -> Iterator[str]:
     """Problems of keys and kinds of values in definition and phrases; names are not looked up."""
-    problems = [f"unknown key {key!r}" for key in raw if key not in ("vehicle", "task", "skill")]
+    yield from (f"unknown key {key!r}" for key in raw if key not in ("vehicle", *NESTED))
     vehicle = raw.get("vehicle")
     if isinstance(vehicle, dict):
-        problems += _table(vehicle, "vehicle", "[vehicle]")
+        problems = list(_table(vehicle, "vehicle", "[vehicle]"))
+        yield from problems
         if not problems and vehicle["home"] == vehicle["unresolved"]:
-            problems.append("[vehicle]: home and unresolved are the same position")
+            yield "[vehicle]: home and unresolved are the same position"
     else:
-        problems.append("a table [vehicle] is needed")
-    problems += [*_entries(raw, "task", "title"), *_entries(raw, "skill", "name")]
-    problems += [
-        f"the phrase file needs tables [{kind}.NAME]"
-        for kind in NESTED
-        if not _are_tables(phrases.get(kind, {}))
-    ]
-    return problems
+        yield "a table [vehicle] is needed"
+    yield from _entries(raw, "task", "title")
+    yield from _entries(raw, "skill", "name")
+    for kind in NESTED:
+        if not isinstance(known := phrases.get(kind, {}), dict) or not _are_tables(known):
+            yield f"the phrase file needs tables [{kind}.NAME]"
 
 
 def _table(table: Table, kind: str, where: str) -> Iterator[str]:
@@ -100,7 +100,7 @@ def _table(table: Table, kind: str, where: str) -> Iterator[str]:
 
 def _entries(raw: Table, kind: str, key: str) -> Iterator[str]:
     entries = raw.get(kind)
-    if not isinstance(entries, list) or not entries or not _are_tables(dict(enumerate(entries))):
+    if not isinstance(entries, list) or not entries or not _are_tables(entries):
         yield f"at least one [[{kind}]] is needed"
         return
     for number, entry in enumerate(entries, 1):
@@ -112,7 +112,7 @@ def _entries(raw: Table, kind: str, key: str) -> Iterator[str]:
 
 
 def _parameters(parameters: Any, where: str) -> Iterator[str]:
-    if not isinstance(parameters, list) or not _are_tables(dict(enumerate(parameters))):
+    if not isinstance(parameters, list) or not _are_tables(parameters):
         yield f"{where}: parameters must be a list of tables"
         return
     names = [str(parameter.get("name")) for parameter in parameters]
@@ -153,40 +153,35 @@ def _repeated(names: Iterable[str]) -> list[str]:
 
 def reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
     """Names that are defined twice or not at all."""
-    titles, names = [task.title for task in vocabulary.tasks], [s.name for s in vocabulary.skills]
-    yield from (f"task {title} is defined twice" for title in _repeated(titles))
-    yield from (f"skill {name} is defined twice" for name in _repeated(names))
+    names = {
+        "task": [task.title for task in vocabulary.tasks],
+        "skill": [skill.name for skill in vocabulary.skills],
+    }
+    for kind, known in names.items():
+        yield from (f"{kind} {name} is defined twice" for name in _repeated(known))
     for key in ("transit", "locate"):
         if getattr(vocabulary, key) not in vocabulary.task:
             yield f"[vehicle] {key} = {getattr(vocabulary, key)!r} is no task"
     transit = vocabulary.task.get(vocabulary.transit)
     if transit and transit.position_parameter is None:
-        yield (
-            f"task {transit.title}: brings the vehicle to a place and needs a parameter of type"
-            " position"
-        )
-    owners: list[tuple[str, Task | Skill]] = [
-        (f"task {task.title}", task) for task in vocabulary.tasks
-    ]
-    owners += [(f"skill {skill.name}", skill) for skill in vocabulary.skills]
-    for where, owner in owners:
-        unknown = [name for name in owner.require_any if name not in owner.by_name]
-        yield from (
-            f"{where}: require_any names {name!r}, which is no parameter" for name in unknown
-        )
+        needs = "brings the vehicle to a place and needs a parameter of type position"
+        yield f"task {transit.title}: {needs}"
+    owners: list[Task | Skill] = [*vocabulary.tasks, *vocabulary.skills]
+    for name, owner in zip(itertools.chain(*names.values()), owners, strict=True):
+        kind = "task" if hasattr(owner, "title") else "skill"
+        for needed in owner.require_any:
+            if needed not in owner.by_name:
+                yield f"{kind} {name}: require_any names {needed!r}, which is no parameter"
     for task in vocabulary.tasks:
-        for role, fitting in task.skills.items():
-            for name in fitting:
-                skill = vocabulary.skill.get(name)
-                if skill is None:
-                    yield f"task {task.title}: skill {name!r} is not defined"
-                elif skill.role != role:
-                    yield f"task {task.title}: skill {name!r} has the role {skill.role}, not {role}"
-    for kind, known in (("task", set(titles)), ("skill", set(names))):
-        yield from (
-            f"the phrase file has phrases for {kind} {name!r}, which is not defined"
-            for name in sorted(set(vocabulary.phrases.get(kind, {})) - known)
-        )
+        for role, name in ((role, name) for role, fit in task.skills.items() for name in fit):
+            skill = vocabulary.skill.get(name)
+            if skill is None:
+                yield f"task {task.title}: skill {name!r} is not defined"
+            elif skill.role != role:
+                yield f"task {task.title}: skill {name!r} has the role {skill.role}, not {role}"
+    for kind, known in names.items():
+        for name in sorted(set(vocabulary.phrases.get(kind, {})) - set(known)):
+            yield f"the phrase file has phrases for {kind} {name!r}, which is not defined"
 
 
 # ---------------------------------------------------------------- the files beside a definition
@@ -197,7 +192,7 @@ def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
     facts, entries = raw.get("fact", {}), raw.get("task", {})
     here = "the logic file"
     yield from (f"{here} has an unknown key {key!r}" for key in raw.keys() - {"fact", "task"})
-    if not _are_tables(facts) or not _are_tables(entries):
+    if not all(isinstance(one, dict) and _are_tables(one) for one in (facts, entries)):
         yield f"{here} needs tables [fact.NAME] and [task.TITLE]"
         return
     for name, fact in facts.items():
@@ -216,17 +211,12 @@ def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
             elif not _are_names(value):
                 yield f"{where}: {key} = {value!r} must be a list of names"
             elif key != "yields":
-                unknown = [name for name in value if name not in facts]
-                yield from (
-                    f"{where}: {key} names the fact {name!r}, which is not declared"
-                    for name in unknown
-                )
-    given = [entry.get("gives", ()) for entry in entries.values()]
-    yield from (
-        f"{here}: no task gives the fact {name!r}"
-        for name in facts
-        if not any(name in names for names in given if isinstance(names, list))
-    )
+                for name in value:
+                    if name not in facts:
+                        yield f"{where}: {key} names the fact {name!r}, which is not declared"
+    lists = (entry.get("gives") for entry in entries.values())
+    given = [name for names in lists if isinstance(names, list) for name in names]
+    yield from (f"{here}: no task gives the fact {name!r}" for name in facts if name not in given)
 
 
 def motion_problems(
@@ -236,7 +226,7 @@ def motion_problems(
     here = "the motion file"
     yield from (f"{here} has an unknown key {key!r}" for key in raw.keys() - {"skill", "task"})
     for kind in ("skill", "task"):
-        if not _are_tables(raw.get(kind, {})):
+        if not isinstance(own := raw.get(kind, {}), dict) or not _are_tables(own):
             yield f"{here} needs tables [{kind}.NAME]"
             return
     for name, entry in raw.get("skill", {}).items():

@@ -144,9 +144,7 @@ class Vocabulary:
 
     @property
     def data(self) -> Path:
-        """The folder of its data sets: data, data/NAME for another bundled vehicle, else that of
-        the definition.
-        """
+        """Its data: data, data/NAME for other bundled vehicles, else beside it."""
         if self.path is not None and not self.bundled:
             return self.path.parent
         return Path("data") / ("" if self.name == DEFAULT else self.name)
@@ -193,7 +191,7 @@ def build_vocabulary(
 ) -> Vocabulary:
     """The vocabulary of parsed files. Raises PlannerError that lists everything wrong."""
     logic, motion = logic or {}, motion or {}
-    problems = checks.shape_problems(raw, phrases)
+    problems = list(checks.shape_problems(raw, phrases))
     if not problems:
         vocabulary = _build(raw, phrases)
         problems += checks.reference_problems(vocabulary)

@@ -35,10 +35,7 @@ NOTHING = TaskEssentials()
 
 @functools.lru_cache(maxsize=16)
 def load_essentials(vocabulary: Vocabulary) -> Mapping[str, TaskEssentials]:
-    """By title; nothing without NAME.essentials.toml. Raises PlannerError that lists all problems.
-
-    Tasks that the file does not name are left out.
-    """
+    """By title, of tasks that NAME.essentials.toml names. Raises PlannerError with all problems."""
     raw = vocabulary.beside(ESSENTIALS)
     if problems := list(_problems(raw, vocabulary)):
         raise PlannerError(f"{vocabulary.name}{ESSENTIALS}: " + "; ".join(problems))

@@ -117,7 +117,7 @@ def stops(
             reason = f"{title!r} is no task of this vehicle"
             yield Stop(index, title, "task known", reason), frozenset()
             continue
-        parameters = _sound(entry.get("parameters"), task)
+        parameters = sound(entry.get("parameters"), task)
         unmet = _unmet_place(task, parameters, holds.progress, vocabulary)
         if unmet:
             yield Stop(index, title, *unmet), frozenset()
@@ -190,7 +190,7 @@ def collects(logic: TaskLogic, item: str) -> bool:
     )
 
 
-def _sound(parameters: Any, task: Task) -> dict[str, Any]:
+def sound(parameters: Any, task: Task) -> dict[str, Any]:
     """The parameters that are valid by themselves; a place that is no position is none."""
     given = parameters.items() if isinstance(parameters, dict) else ()
     known = {name: value for name, value in given if name in task.by_name}

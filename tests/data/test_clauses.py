@@ -179,7 +179,8 @@ def test_a_command_names_skills_beside_its_tasks():
         "made.jsonl:1",
     )
     for seed in range(12):
-        text, expected = mission_sampler(USV).draw(made, random.Random(seed))
+        command = mission_sampler(USV).compose([made], random.Random(seed))
+        text, expected = command.text, command.expected
         prompts = [task["task_prompt"].endswith("Record video.") for task in expected["tasks"]]
         assert prompts == [False, "video on" in plain(text)]
 
@@ -192,7 +193,9 @@ def test_places_for_clauses_in_a_command_take_any_that_fits():
         "Transit P1 C1; Transit P2",
         "host.jsonl:1",
     )
-    texts = {plain(mission_sampler(USV).draw(made, random.Random(seed))[0]) for seed in range(20)}
+    texts = {
+        plain(mission_sampler(USV).compose([made], random.Random(seed)).text) for seed in range(20)
+    }
     assert len(texts) == 20 and not any("{" in text for text in texts)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.joining import LINKS, joined
+from planner_ft.data.varying import LINKS, joined
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 

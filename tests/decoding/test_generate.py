@@ -207,7 +207,9 @@ def test_latency_is_of_single_queries_after_one_that_is_not_counted(
     for index, one in measured.items():
         assert one.seconds > 0
         assert (
-            one.tokens == one.forward_passes == len(reference(model, queries[index], limits(5, 9)))
+            len(one.ids)
+            == one.forward_passes
+            == len(reference(model, queries[index], limits(5, 9)))
         )
     assert not list(measure_latency(decoder, [], limits()))
 

@@ -84,7 +84,7 @@ class EngineSource:
     def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         queries = self._queries(job, samples)
         for index, one in self.engine.latencies(queries, job.configuration, sampling=job.sampling):
-            yield index, timed(one.seconds, one.tokens, one.forward_passes, one.first_token_s)
+            yield index, timed(one.seconds, len(one.ids), one.forward_passes, one.first_token_s)
 
     def costs(self) -> dict[str, Any]:
         """Seconds to load, the mean of an adapter switch, the most memory since loading."""

@@ -8,7 +8,7 @@ import re
 from functools import cache, lru_cache
 from random import Random
 
-from planner_ft.data.numbers import Value, duration, pick
+from planner_ft.data.numbers import duration, pick
 from planner_ft.data.task.phrasebook import Phrasebook, phrase_text
 from planner_ft.data.task.prompts.binding import XY, Bound, Source, bind
 from planner_ft.data.task.values import draw_duration, draw_position
@@ -87,19 +87,15 @@ def pattern_clause(
         return None
     bound.clause = True
     for key, source in bound.sources.items():
-        draw = _pause if key == "wait" else source.draw
+        draw = source.draw
+        if key == "wait":
+            draw = lambda rng: duration(draw_duration(rng, 2, 60), rng)  # noqa: E731
         bound.sources[key] = Source(draw, f"{pattern}.{key}")
     return bound
 
 
-def _pause(rng: Random) -> Value:
-    return duration(draw_duration(rng, 2, 60), rng)
-
-
 def pattern_phrase(book: Phrasebook, title: str, pattern: str, rng: Random) -> tuple[str, str]:
-    """A phrase for a movement of several steps, and the plan that it stands for; both empty where
-    there is none.
-    """
+    """A phrase for a movement of several steps, and its plan; empty where there is none."""
     phrases, config = book.pattern(pattern, title), book.patterns.get(pattern, {})
     try:
         phrase, plan = pick(phrases, rng), PLANS[pattern].format_map(book.motions)
@@ -125,10 +121,7 @@ def pattern_phrase(book: Phrasebook, title: str, pattern: str, rng: Random) -> t
         phrase = phrase.replace("{headings}", joined(said, pick((" and ", " and then "), rng)))
         name = book.skills[turn].skill.parameters[0].name
         plan = "; ".join(f"{turn} {name}={key}" for key in keys)
-    words = (word for word in plan.split(" ") if "=" not in word or _holds(phrase, word))
-    return phrase, " ".join(words)
-
-
-def _holds(phrase: str, argument: str) -> bool:
-    """Whether the phrase has the slot of an argument "name=slot"."""
-    return re.search(rf"{{{argument.rstrip(';').partition('=')[2]}\b", phrase) is not None
+    # Of the arguments "name=slot", those whose slot the phrase has.
+    words = ((word, word.rstrip(";").partition("=")[2]) for word in plan.split(" "))
+    held = (word for word, key in words if not key or re.search(rf"{{{key}\b", phrase))
+    return phrase, " ".join(held)

@@ -71,9 +71,7 @@ class Movement:
 
 @dataclass
 class Run:
-    """A skill that runs beside some of the movements, given by their places; without a name, words
-    that ask for no skill.
-    """
+    """A skill, or words that ask for none (no name), beside the movements at these places."""
 
     skill: str
     clause: Clause
@@ -91,9 +89,8 @@ class Prompt:
         lead = self._lead()
         self.movements = self._movements(lead is not None)
         self.runs = self._runs(lead)
-        if self.movements[0].clause is None and not any(
-            run for run in self.runs if self._role(run) == "perception"
-        ):
+        asked = self.movements[0].clause or "perception" in map(self._role, self.runs)
+        if not asked:
             raise Misfit
         self.frame, self.pieces = self._said()
         self.plan = self._plan()
@@ -104,13 +101,13 @@ class Prompt:
     # ------------------------------------------------------------ what is asked for
 
     def _lead(self) -> Clause | None:
-        entry = self.c.entry
+        entry, title = self.c.entry, self.c.task.title
         if not entry.lead or self.rng.random() < 0.2:
             return None
         for place, name in entry.links.items():
             if place.startswith("lead."):
                 self.c.require(name)
-        phrase, title = pick(entry.lead, self.rng), self.c.task.title
+        phrase = pick(entry.lead, self.rng)
         return lambda form: lead_clause(self.book, title, phrase, form == "ing")
 
     def _movements(self, lead: bool) -> list[Movement]:
@@ -118,14 +115,12 @@ class Prompt:
         still = 0.35 if task.arrival == "none" and task.pattern == "hold" else 0.02
         if hold and rng.random() < (0.55 if lead else still):
             return [Movement("implied", None, route=[(hold, {})])]
-        main = self._skill(hold) if hold and lead and rng.random() < 0.7 else self._main()
-        movements = [main]
+        movements = [self._skill(hold) if hold and lead and rng.random() < 0.7 else self._main()]
         for _ in range(_count(rng, EXTRA_MOVEMENTS)):
             if extra := self._extra():
                 movements.insert(int(rng.random() * (len(movements) + 1)), extra)
-        if rng.random() < 0.03 and (home := self._pattern("home")):
-            movements.append(home)
-        return movements
+        home = self._pattern("home") if rng.random() < 0.03 else None
+        return [*movements, home] if home else movements
 
     def _main(self) -> Movement:
         roll, task = self.rng.random(), self.c.task
@@ -142,9 +137,8 @@ class Prompt:
             return self._pattern(pick(OTHER, self.rng))
         if roll < 0.35 and "goto" in motions:
             return self._skill(motions["goto"])
-        if roll < 0.65:
-            return self._skill(pick(self.c.task.skills["navigation"], self.rng))
-        return self._skill(pick(self.book.roles["navigation"], self.rng))
+        known = self.c.task.skills if roll < 0.65 else self.book.roles
+        return self._skill(pick(known["navigation"], self.rng))
 
     def _pattern(self, name: str) -> Movement | None:
         title = self.c.task.title
@@ -180,7 +174,13 @@ class Prompt:
         skill = self.c.entry.lead_skill.get("skill", "")
         runs = [Run(skill, lead, frozenset(), every)] if lead else []
         for role, shares in SHARES.items():
-            for name in self._names(role, _count(rng, shares)):
+            skills, fitting = self.book.roles[role], self.c.task.skills.get(role, ())
+            count = _count(rng, shares)
+            names = [
+                pick(fitting if fitting and rng.random() < 0.85 else skills, rng)
+                for _ in range(count if skills else 0)
+            ]
+            for name in dict.fromkeys(names):  # Mostly those that fit the task.
                 entry, steps = self.book.skills[name], _steps(len(every), rng)
                 forms = frozenset(form for form in ("with", "passive") if entry.phrases[form])
                 run = Run(name, functools.partial(self._clause, name), forms, steps)
@@ -190,16 +190,6 @@ class Prompt:
                 if entry.several and rng.random() < share:
                     runs.append(Run(name, run.clause, forms, others))
         return runs
-
-    def _names(self, role: Literal["filter", "perception"], count: int) -> list[str]:
-        """Different skills of the role, mostly those that fit the task."""
-        skills = self.book.roles[role]
-        fitting = self.c.task.skills.get(role, ())
-        names = [
-            pick(fitting if fitting and self.rng.random() < 0.85 else skills, self.rng)
-            for _ in range(count if skills else 0)
-        ]
-        return list(dict.fromkeys(names))
 
     def _role(self, run: Run) -> str:
         return self.book.skills[run.skill].skill.role if run.skill else "perception"
@@ -297,14 +287,14 @@ class Prompt:
             pieces = [*self._scoped(later[:1], scopes, marked), (". ", False)]
             later = later[1:]
         for place, text in enumerate((first, *[middle] * (len(movements) - 2), last)):
-            clause = functools.partial(self._part, movements[place], local[place])
-            counts = {
-                "n": str(place + 1),
-                "nth": scopes.nth([place]),
-                "number": in_words(place + 1),
+            number, nth = place + 1, scopes.nth([place])
+            makers: dict[str, Maker] = {
+                "clause": functools.partial(self._part, movements[place], local[place]),
+                "n": _constant(str(number)),
+                "nth": _constant(nth),
+                "number": _constant(in_words(number)),
             }
-            makers = {name: _constant(count) for name, count in counts.items()}
-            pieces += self._frame(parse_phrase(text), {"clause": clause, **makers})
+            pieces += self._frame(parse_phrase(text), makers)
         for steps in dict.fromkeys(run.steps for run in later):
             pieces.append((". ", False))
             pieces += self._scoped([run for run in later if run.steps == steps], scopes, marked)
@@ -314,9 +304,7 @@ class Prompt:
         return self._movement(f"clause_{form}" if form else "clause", movement, data)
 
     def _scoped(self, runs: Sequence[Run], scopes: Scopes, marked: bool) -> list[PIECE]:
-        """A sentence for what runs in the same steps. `marked`: a skill that runs everywhere needs
-        words for it, since others do not.
-        """
+        """What runs in the same steps; `marked`: one that runs everywhere needs words for it."""
         makers: dict[str, Maker] = {"data": functools.partial(self._calls, runs)}
         given = _forms("data", runs)
         if not marked and self.rng.random() < 0.5:
@@ -327,9 +315,7 @@ class Prompt:
     # ------------------------------------------------------------ what it means
 
     def _plan(self) -> dict[str, Any]:
-        """The skill plan in canonical form. Within a step, filters and perception skills stand in
-        the order of mention.
-        """
+        """The plan; within a step, filters and perception skills stand in the order of mention."""
         steps = []
         for place, movement in enumerate(self.movements):
             beside = [found for run, *found in self.mentioned if place in run.steps]

@@ -53,19 +53,16 @@ def mission_tasks(vocabulary: Vocabulary, seed: int) -> Iterator[dict[str, Any]]
         place: list[float] = [rng.randrange(-200, 201, 5), rng.randrange(-200, 201, 5)]
         subject, at = None, None
         for number, entry in enumerate(mission["expected"]["tasks"]):
-            bare = entry["title"] == transit and not beside[number]
+            title, parameters = entry["title"], entry["parameters"]
+            bare = title == transit and not beside[number]
             if not bare or rng.random() <= TRANSITS:
                 record = task_record(entry, subject, place, vocabulary, beside[number], at)
-                if record is not None:
-                    yield {
-                        "id": f"mission-task-{mission['id']}-{number}",
-                        "family": f"mission-task/{entry['title']}",
-                        **record,
-                    }
-            position = vocabulary.task[entry["title"]].position_parameter
-            at = entry["parameters"].get(position, at)
-            if entry["title"] == locate.title:
-                subject = entry["parameters"][described]
+                named = {"id": f"mission-task-{mission['id']}-{number}"}
+                yield from (
+                    [{**named, "family": f"mission-task/{title}", **record}] if record else ()
+                )
+            at = parameters.get(vocabulary.task[title].position_parameter, at)
+            subject = parameters[described] if title == locate.title else subject
 
 
 def task_record(
@@ -123,9 +120,7 @@ def task_record(
 
 @functools.cache
 def _meanings(vocabulary: Vocabulary, title: str) -> list[tuple[Bound, set[str]]]:
-    """What a task comes to, and the parameters that this needs: the first of them whose parameters
-    are given counts.
-    """
+    """What a task comes to, with the parameters that this needs: the first that fits counts."""
     found = []
     for plan in vocabulary.beside(MISSIONS).get("task", {}).get(title, {}).get("skills", ()):
         where = f"{vocabulary.name}{MISSIONS}: [task.{title}] skills"

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from planner_ft.data.task.values import Draw, number_space, value_space
@@ -24,7 +24,7 @@ from planner_ft.data.templates.grammar import Nodes, TemplateError, all_slots, p
 from planner_ft.data.wordlists import FALLBACK, MADE_UP, WordLists
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import ROLES, Parameter, Skill, Task, Vocabulary
 
 FORMS = {"#": "full", "!": "num", "^": "noun", "+": "way"}
 _FORM = re.compile(r"(?<=\w)[#!^+](?=})")
@@ -66,8 +66,7 @@ class SkillEntry:
     """The phrases and parameter spaces of one skill."""
 
     def __init__(self, skill: Skill, config: dict[str, Any], book: Phrasebook) -> None:
-        self.skill = skill
-        self.draws = _draws(skill, config.get("values", {}), book.lexicon)
+        self.skill, self.draws = skill, _draws(skill, config, book.lexicon)
         often = config.get("often", {})
         self.often = {
             item.name: 1.0 if item.required else float(often.get(item.name, 0.5))
@@ -75,7 +74,7 @@ class SkillEntry:
         }
         known = {*skill.by_name, "xy"} if skill.motion == "goto" else set(skill.by_name)
         for phrase in (one for key in KINDS for one in config.get(key, ())):
-            for name in set(_values(parse_phrase(phrase))) - known:
+            for name in set(_values(phrase)) - known:
                 raise PlannerError(
                     f"vocabulary {book.vocabulary.source}: phrase {phrase!r}: {skill.name} has no"
                     f" parameter {name}"
@@ -86,7 +85,7 @@ class SkillEntry:
             "with": config.get("with", []),
             "passive": [] if book.unseen else config.get("passive", []),
         }
-        self.bare = [one for one in own or () if not _values(parse_phrase(one))]
+        self.bare = [one for one in own or () if not _values(one)]
         self.none: list[str] = config.get("none", [])
         self.several = bool(config.get("several", True)) and bool(skill.parameters)
         self.repeats = bool(config.get("repeats"))
@@ -96,7 +95,7 @@ class TaskEntry:
     """The phrases, links and parameter spaces of one task."""
 
     def __init__(self, task: Task, config: dict[str, Any], book: Phrasebook) -> None:
-        self.draws = _draws(task, config.get("values", {}), book.lexicon)
+        self.draws = _draws(task, config, book.lexicon)
         refer = config.get("refer", {})
         self.refer: dict[str, list[str]] = {
             name: refer.get(name, [f"the given {spaced(name)}"]) for name in task.by_name
@@ -130,12 +129,12 @@ class Phrasebook:
         self.lexicon = WordLists(raw.get("words", {}))
         skills, tasks = raw.get("skill", {}), raw.get("task", {})
         self.skills = {
-            skill.name: SkillEntry(skill, skills.get(skill.name, {}), self)
-            for skill in vocabulary.skills
+            name: SkillEntry(skill, skills.get(name, {}), self)
+            for name, skill in vocabulary.skill.items()
         }
         self.tasks = {
-            task.title: TaskEntry(task, tasks.get(task.title, {}), self)
-            for task in vocabulary.tasks
+            title: TaskEntry(task, tasks.get(title, {}), self)
+            for title, task in vocabulary.task.items()
         }
         self.decor = {
             name: number_space(Parameter(name, "number", config.get("unit")), config)
@@ -143,23 +142,18 @@ class Phrasebook:
         }
         self.sentences: dict[str, list[str]] = raw.get("sentence", {})
         self.patterns: dict[str, dict[str, Any]] = raw.get("pattern", {})
-        self.motions: dict[str, str] = {
-            skill.motion: skill.name for skill in reversed(vocabulary.skills) if skill.motion
-        }
-        self.roles: dict[str, list[str]] = {
-            role: [skill.name for skill in vocabulary.skills if skill.role == role]
-            for role in ("navigation", "filter", "perception")
+        moving = (skill for skill in reversed(vocabulary.skills) if skill.motion)
+        self.motions: dict[str, str] = {str(skill.motion): skill.name for skill in moving}
+        self.roles = {
+            role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ROLES
         }
         self.verbs = {"run", *_VERB.findall(compact_json(raw))}
 
     def pattern(self, name: str, title: str) -> Sequence[str]:
-        """Phrases of a movement of several steps: the task's own ones, twice as often, and the
-        general ones.
-        """
+        """Phrases of a movement of several steps, the task's own ones twice as often."""
         general = self.patterns.get(name, {})
         if self.unseen and general.get("unseen"):
-            found: list[str] = general["unseen"]
-            return found
+            return list(general["unseen"])
         return [*self.tasks[title].patterns.get(name, []) * 2, *general.get("phrases", [])]
 
 
@@ -169,17 +163,14 @@ def phrasebook(vocabulary: Vocabulary, *, unseen: bool) -> Phrasebook:
     return Phrasebook(vocabulary, unseen=unseen)
 
 
-def _draws(
-    owner: Skill | Task, spaces: Mapping[str, dict[str, Any]], lexicon: WordLists
-) -> dict[str, Draw]:
-    return {
-        item.name: value_space(item, spaces.get(item.name, {}), lexicon)
-        for item in owner.parameters
-    }
+def _draws(owner: Skill | Task, config: dict[str, Any], lexicon: WordLists) -> dict[str, Draw]:
+    spaces = config.get("values", {})
+    items = owner.parameters
+    return {item.name: value_space(item, spaces.get(item.name, {}), lexicon) for item in items}
 
 
-def _values(nodes: Nodes) -> list[str]:
-    return [slot.key for slot in all_slots(nodes) if not slot.sign]
+def _values(phrase: str) -> list[str]:
+    return [slot.key for slot in all_slots(parse_phrase(phrase)) if not slot.sign]
 
 
 def _generic_phrase(skill: Skill) -> str:
@@ -210,13 +201,9 @@ def _texts(value: Any) -> Iterator[str]:
     """All phrases in a section of the phrase file."""
     if isinstance(value, str):
         yield value
-    elif isinstance(value, list):
-        for item in value:
-            yield from _texts(item)
-    elif isinstance(value, dict):
-        for key, item in value.items():
-            if key not in SETTINGS:
-                yield from _texts(item)
+    elif isinstance(value, dict | list):
+        pairs = value.items() if isinstance(value, dict) else enumerate(value)
+        yield from (text for key, item in pairs if key not in SETTINGS for text in _texts(item))
 
 
 def _default_links(task: Task, parameter: Parameter, vocabulary: Vocabulary) -> Iterator[str]:

@@ -92,9 +92,8 @@ class _Draws:
 
     def any(self) -> Draw:
         """Where the next sample comes from."""
-        if self.templates and self.rng.random() < TEMPLATES:
-            return self.from_template
-        return self.composed
+        whole = self.templates and self.rng.random() < TEMPLATES
+        return self.from_template if whole else self.composed
 
     def from_template(self) -> dict[str, Any] | None:
         """One record without id from a whole-prompt template."""
@@ -107,9 +106,8 @@ class _Draws:
         drawn = draw_template(bound, context)
         if drawn is None:
             return None
-        said, expected, skills = drawn
-        family = f"template/{len(expected['skill_sequence'])}"
-        return self._record(family, context, said, expected, skills, ("train", self.split))
+        family = f"template/{len(drawn[1]['skill_sequence'])}"
+        return self._record(family, context, *drawn, ("train", self.split))
 
     def composed(self) -> dict[str, Any] | None:
         """One record without id that was put together."""
@@ -147,7 +145,13 @@ class _Draws:
                 f" ({problems[0]}); correct the phrase file's ranges"
             )
         if not self.unseen:
-            said = noisy(said, self.rng, shout=not _has_texts(expected))
+            calls = (
+                call for step in expected["skill_sequence"] for _role, call in step_skills(step)
+            )
+            values = (value for call in calls for value in call["parameters"].values())
+            # The plan has words of the prompt with their capitals.
+            texts = any(isinstance(one[0] if isinstance(one, list) else one, str) for one in values)
+            said = noisy(said, self.rng, shout=not texts)
         return {
             "family": family,
             "task": title,
@@ -155,13 +159,3 @@ class _Draws:
             "prompt": plain(said),
             "expected": expected,
         }
-
-
-def _has_texts(expected: dict[str, Any]) -> bool:
-    """Whether a plan has text values: words of the prompt that it holds with their capitals."""
-    return any(
-        isinstance(value[0] if isinstance(value, list) and value else value, str)
-        for step in expected["skill_sequence"]
-        for _role, call in step_skills(step)
-        for value in call["parameters"].values()
-    )

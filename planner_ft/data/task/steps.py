@@ -5,7 +5,7 @@ template once its values are known.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from planner_ft.data.task.phrasebook import Phrasebook
@@ -37,9 +37,7 @@ def plan_step(
     perceptions: list[Entry],
     vocabulary: Vocabulary,
 ) -> Entry:
-    """A step of the plan, with the strings that its skills report. Parameters are brought into
-    canonical form.
-    """
+    """A step of the plan in canonical form, with the strings that its skills report."""
     running = (name, *(entry["name"] for entry in (*filters, *perceptions)))
     stops, failures, outputs = _reports(vocabulary, running)
     return {
@@ -53,15 +51,11 @@ def plan_step(
 
 
 @functools.lru_cache(maxsize=4096)
-def _reports(vocabulary: Vocabulary, running: tuple[str, ...]) -> tuple[list[str], ...]:
+def _reports(vocabulary: Vocabulary, running: tuple[str, ...]) -> list[list[str]]:
     """Stop condition of the first skill, failure modes and outputs of all."""
     skills = [vocabulary.skill[name] for name in running]
     failures, outputs = ([getattr(skill, key) for skill in skills] for key in ("failure", "output"))
-    return _distinct([skills[0].stop]), _distinct(failures), _distinct(outputs)
-
-
-def _distinct(texts: Iterable[str | None]) -> list[str]:
-    return list(dict.fromkeys(text for text in texts if text))
+    return [list(filter(None, dict.fromkeys(t))) for t in ([skills[0].stop], failures, outputs)]
 
 
 class Plan:

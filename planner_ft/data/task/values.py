@@ -46,14 +46,15 @@ SPAN = 220
 
 def value_space(parameter: Parameter, config: dict[str, Any], lexicon: WordLists) -> Draw:
     """A function that draws a value of this parameter."""
-    if parameter.type in ("number", "integer"):
+    kind, several = parameter.type, parameter.type == "texts"
+    if kind in ("number", "integer"):
         return number_space(parameter, config)
-    if parameter.type == "position":
+    if kind == "position":
         return draw_position
-    if parameter.type == "polygon":
+    if kind == "polygon":
         return lambda rng: polygon(draw_polygon(rng), rng)
-    words = config.get("words", "things" if parameter.type == "texts" else "thing")
-    if parameter.type == "texts":
+    words = config.get("words", "things" if several else "thing")
+    if several:
         most, article = config.get("most", 4), config.get("article", False)
         return lambda rng: lexicon.several(
             words, rng, 1 + int(rng.random() ** 1.5 * most), article=article
@@ -62,22 +63,24 @@ def value_space(parameter: Parameter, config: dict[str, Any], lexicon: WordLists
     return lambda rng: say(words, rng)
 
 
-def _sense(parameter: Parameter, config: dict[str, Any]) -> str | None:
-    """How the number is said: from the phrase file, else from name, unit and range."""
-    if "sense" in config:
-        return str(config["sense"])
-    if parameter.unit == "deg":
-        if parameter.name in ("heading", "bearing", "yaw", "course"):
-            return "bearing"
-        if parameter.minimum is not None and parameter.minimum < 0:
-            return "rotation"
-    return UNITS.get(parameter.unit or "", (None, None))[0]
-
-
 def number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
-    """A function that draws a number of this parameter."""
-    sense = _sense(parameter, config)
-    low, high = config.get("typical") or _default_range(parameter, sense)
+    """A function that draws a number of this parameter; how it is said and its range are those of
+    the phrase file, else they follow from name, unit and range.
+    """
+    least, most = parameter.minimum, parameter.maximum
+    sense, (low, high) = UNITS.get(parameter.unit or "", (None, (1, 20)))
+    if parameter.unit == "deg" and parameter.name in ("heading", "bearing", "yaw", "course"):
+        sense = "bearing"
+    elif parameter.unit == "deg" and least is not None and least < 0:
+        sense = "rotation"
+    sense = config.get("sense", sense)
+    if typical := config.get("typical"):
+        low, high = typical
+    elif sense == "rotation":
+        low, high = 5, 180
+    else:
+        low = low if least is None else max(low, least)
+        high = high if most is None else max(low, min(high, most))
     choices = config.get("choices")
 
     def draw(rng: random.Random) -> Value:
@@ -95,15 +98,6 @@ def number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
         return say_number(number, sense, parameter.unit, rng)
 
     return draw
-
-
-def _default_range(parameter: Parameter, sense: str | None) -> tuple[float, float]:
-    if sense == "rotation":
-        return 5, 180
-    low, high = UNITS.get(parameter.unit or "", (None, (1, 20)))[1]
-    if parameter.minimum is not None:
-        low = max(low, parameter.minimum)
-    return low, high if parameter.maximum is None else max(low, min(high, parameter.maximum))
 
 
 def draw_number(rng: random.Random, low: float, high: float, *, whole: bool = False) -> float:
@@ -163,14 +157,11 @@ def draw_point(rng: random.Random) -> Point:
     span = SPAN if rng.random() < 0.85 else pick((1200, 30), rng)
     coordinates: list[float] = []
     for _ in range(2):
-        number = rng.randrange(-span, span + 1)
-        roll = rng.random()
-        if roll < 0.45:
-            number = 5 * round(number / 5)
-        coordinates.append(
-            number if roll < 0.93 else number + pick((0.5, 0.25, 0.1, 0.75, -0.4), rng)
-        )
-    return point(coordinates[0], coordinates[1])
+        number, roll = rng.randrange(-span, span + 1), rng.random()
+        number = 5 * round(number / 5) if roll < 0.45 else number
+        part = pick((0.5, 0.25, 0.1, 0.75, -0.4), rng) if roll >= 0.93 else 0
+        coordinates.append(number + part)
+    return point(*coordinates)
 
 
 def draw_position(rng: random.Random) -> Value:

@@ -31,6 +31,7 @@ PARTS = range(3, 13)
 SUM = re.compile(r"([xy]?)(-?\d+(?:\.\d+)?)([-+/])(\d+(?:\.\d+)?)=(-?\d+(?:\.\d+)?)")
 """A sum: axis, base or length, sign, length or number of parts, result."""
 
+SITES = ("position", "polygon")
 _Away = tuple[float, float | None]
 """A distance, and the length of the input that it is a part of."""
 _Point = tuple[float, float]
@@ -47,11 +48,12 @@ def working_of(record: Mapping[str, Any], vocabulary: Vocabulary) -> str:
     own = record.get("parameters", {}).items() if task else ()
     known = [(task.by_name[name], value) for name, value in own if task and name in task.by_name]
     said = read_positions(prompt)
-    places = [
-        *(place for parameter, value in known for place in _places(parameter.type, value)),
-        *((place.x, place.y) for place in said),
-        vocabulary.home,
-    ]
+    shapes = (
+        [value] if one.type == "position" else value for one, value in known if one.type in SITES
+    )
+    sites = (site for shape in shapes if isinstance(shape, list) for site in shape)
+    places: list[_Point] = [(site[0], site[1]) for site in sites if is_position(site)]
+    places += [*((place.x, place.y) for place in said), vocabulary.home]
     if all(any(_near(x, a) and _near(y, b) for a, b in places) for x, y in route):
         return ""
     # Numbers of the prompt that may be lengths; those that are coordinates come last.
@@ -60,10 +62,9 @@ def working_of(record: Mapping[str, Any], vocabulary: Vocabulary) -> str:
     lengths = [value for parameter, value in known if parameter.unit == "m" and is_number(value)]
     lengths += [quantity.value for quantity in spoken]
     distinct = [*dict.fromkeys(_tidy(abs(length)) for length in lengths)]
-    stated = zip(*places, strict=True)
     axes = [
-        _Axis(name, [*dict.fromkeys(axis)], distinct)
-        for name, axis in zip("xy", stated, strict=True)
+        _Axis(name, [*dict.fromkeys(place[at] for place in places)], distinct)
+        for at, name in enumerate("xy")
     ]
     parts: set[float] = set()
     written: list[str] = []
@@ -79,22 +80,18 @@ class _Axis:
     """
 
     def __init__(self, name: str, stated: list[float], lengths: list[float]) -> None:
-        self.name, self.stated, self.lengths = name, stated, lengths
+        self.name, self.stated, self.lengths, self.lanes = name, stated, lengths, False
         self.known: set[float] = set()
         self.last: float | None = None
         self.pace: float | None = None
-        self.lanes = False
 
     def go(self, value: float, lanes: bool, parts: set[float]) -> Iterator[str]:
-        """Walk to a coordinate: the sums that it needs. `parts` are the lengths that were divided
-        already.
-        """
+        """Walk to a coordinate: the sums that it needs; `parts` are lengths divided already."""
         if lanes and not self.lanes:
             self.pace = None
         self.lanes = lanes
-        found = None if value in self.known else self._found(value)
-        if found is not None:
-            base, (away, whole) = found
+        if value not in self.known and (found := self._found(value)):
+            base, away, whole = found
             if whole is not None and away not in parts:
                 yield f"{_text(whole)}/{_text(round(whole / away))}={_text(away)}"
                 parts.add(away)
@@ -104,18 +101,17 @@ class _Axis:
         self.known.add(value)
         self.last = value
 
-    def _found(self, value: float) -> tuple[float, _Away] | None:
-        """The likeliest sum for a coordinate: what it can be reached from, and how far away."""
+    def _found(self, value: float) -> tuple[float, float, float | None] | None:
+        """The likeliest sum for a coordinate: what it can be reached from, how far away that is,
+        and the length of the input that this is a part of.
+        """
         # Lanes go on at their pace, over what is stated too.
         paced = self.lanes and self.last is not None and self.pace is not None
         on = paced and _near(abs(value - (self.last or 0)), self.pace or 0)
         if any(_near(value, other) for other in self.stated) and not on:
             return None
-        for base, distances in self._sums():
-            for away, whole in distances:
-                if away and _near(abs(value - base), away):
-                    return base, (away, whole)
-        return None
+        sums = ((base, *one) for base, distances in self._sums() for one in distances)
+        return next((one for one in sums if one[1] and _near(abs(value - one[0]), one[1])), None)
 
     def _sums(self) -> Iterator[tuple[float, list[_Away]]]:
         wholes: list[_Away] = [(length, None) for length in self.lengths]
@@ -134,21 +130,12 @@ class _Axis:
 
 def _route(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[_Point]:
     """The waypoints of a plan."""
-    for step in plan["skill_sequence"]:
-        movement = step["navigation_skill"]
+    for movement in (step["navigation_skill"] for step in plan["skill_sequence"]):
         skill = vocabulary.skill.get(movement["name"])
         if skill is not None and skill.motion == "goto":
             x, y = (movement["parameters"].get(parameter.name) for parameter in skill.coordinates)
             if is_number(x) and is_number(y):
                 yield x, y
-
-
-def _places(kind: str, value: Any) -> Iterator[_Point]:
-    """The points of a position or a polygon; what is malformed is passed over."""
-    if kind in ("position", "polygon") and isinstance(value, list):
-        for place in [value] if kind == "position" else value:
-            if is_position(place):
-                yield place[0], place[1]
 
 
 def _on_lanes(route: Sequence[_Point]) -> list[bool]:

@@ -1,4 +1,1 @@
-"""Templates of commands and task prompts: one grammar, one JSONL form, one renderer.
-
-The grammar and the files are described in docs/data.md, "Templates".
-"""
+"""Templates of commands and task prompts (docs/data.md): one grammar, JSONL form and renderer."""

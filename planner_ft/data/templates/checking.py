@@ -48,12 +48,8 @@ def _samples(vocabulary: Vocabulary) -> Iterator[tuple[Level, Template, Iterator
     if template_files(vocabulary, "commands"):
         sampler = MissionSampler(vocabulary, split=None)
         for command in itertools.chain(*sampler.groups):
-            draws = (
-                (plain(text), plan)
-                for seed in range(40)
-                for text, plan in [sampler.draw(command, Random(seed))]
-            )
-            yield "mission", command, draws
+            made = (sampler.compose([command], Random(seed)) for seed in range(40))
+            yield "mission", command, ((plain(one.text), one.expected) for one in made)
         for clause in itertools.chain(*sampler.clauses):
             yield "mission", clause, _clauses(clause, sampler)
     book = Phrasebook(vocabulary, unseen=False)
@@ -63,8 +59,7 @@ def _samples(vocabulary: Vocabulary) -> Iterator[tuple[Level, Template, Iterator
 
 def _clauses(clause: Template, sampler: MissionSampler) -> Iterator[tuple[str, Any]]:
     """Commands with the clause, where it fits one of one task."""
-    for seed in range(200):
-        rng = Random(seed)
+    for rng in map(Random, range(200)):
         command = sampler.compose([pick(sampler.short, rng)], rng, 1, only=clause)
         if command.clauses:
             yield plain(command.text), command.expected

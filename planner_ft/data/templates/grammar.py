@@ -13,25 +13,34 @@ Title?label argument name=value -name name="text" +Filter &Perception / EACH; NE
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from random import Random
+from typing import NoReturn
 
 DIGITS = "0123456789"
+_CLOSES = {"(": ")", "[": "]"}
 _MARK = re.compile(r"\\(.?)|\{([^}]*)\}|([(\[{|)\]}])")
 _SLOT = re.compile(r"(param\.|[~_?]?)([A-Za-z]\w*)(?::(\w*))?((?: +\w+)*) *", re.ASCII)
 _WORD = re.compile(r"""(?:[^\s"';]|"[^"]*"|(?<==)'[^']*'|')+|;""")
 _HEAD = re.compile(r"""[+&]?("[^"]+"|[\w-]+)(?:\?([^@]*))?(?:@(first|last))?""")
 _ARGUMENT = re.compile(
     r"""(?:(?P<name>\w+)=)?(?:(?P<quote>["'])(?P<text>.*)(?P=quote)|~(?P<unused>.+)"""
-    r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*))|(?P<number>-?[\d.]+))""",
+    r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*))|(?P<number>-?\d+(?:\.\d+)?))""",
     re.DOTALL,
 )
+_KINDS = {"text": "literal"}
 
 
 class TemplateError(ValueError):
     """What is wrong with a template."""
+
+
+def fail(problem: str) -> NoReturn:
+    """Raise TemplateError."""
+    raise TemplateError(problem)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,71 +84,58 @@ def base_of(key: str) -> str:
 # ---------------------------------------------------------------- texts
 
 
-@dataclass
-class _Level:
-    """A bracket that is open: its branches up to the last bar, and the nodes behind that."""
-
-    opener: str
-    place: int
-    branches: list[Nodes] = field(default_factory=list)
-    nodes: list[Node] = field(default_factory=list)
-
-    def add(self, node: Node) -> None:
-        if isinstance(node, str) and self.nodes and isinstance(self.nodes[-1], str):
-            self.nodes[-1] += node
-        elif node:
-            self.nodes.append(node)
-
-    def branch(self) -> None:
-        self.branches.append(tuple(self.nodes))
-        self.nodes = []
-
-
 def parse_text(source: str) -> Nodes:
     """The nodes of a text. Raises TemplateError."""
-    levels, place = [_Level("", 0)], 0
-    for found in _MARK.finditer(source):
-        level, rest = levels[-1], repr(source[found.start() : found.start() + 30])
-        level.add(source[place : found.start()])
-        place = found.end()
+    return _branches(source, 0, "")[0][0]
+
+
+def _branches(source: str, place: int, opener: str) -> tuple[list[Nodes], int]:
+    """The alternatives from a place up to the bracket that closes them, and the place behind it."""
+    branches, nodes, begun = list[Nodes](), list[Node](), place - 1
+    while found := _MARK.search(source, place):
+        nodes.append(source[place : found.start()])
+        rest, place = repr(source[found.start() : found.start() + 30]), found.end()
         escaped, slot, mark = found.groups()
-        if escaped is not None:
-            level.add(escaped)
-        elif slot is not None:
-            level.add(parse_slot(slot))
+        if escaped is not None or slot is not None:
+            nodes.append(parse_slot(slot) if escaped is None else escaped)
         elif mark in "([":
-            levels.append(_Level(mark, found.start()))
+            inside, place = _branches(source, place, mark)
+            nodes += _bracket(mark, inside, source)
         elif mark == "{":
             raise TemplateError(f"a brace is not closed: {rest}")
-        elif mark == "|" and level.opener:
-            level.branch()
-        elif level.opener and mark == {"(": ")", "[": "]"}[level.opener]:
-            level.branch()
-            levels.pop()
-            _close(level, levels[-1], source)
+        elif opener and mark in "|" + _CLOSES[opener]:
+            branches.append(_merged(nodes))
+            nodes = []
+            if mark != "|":
+                return branches, place
         else:
             raise TemplateError(f"{mark!r} closes nothing: {rest}")
-    if len(levels) > 1:
-        begun = source[levels[-1].place : levels[-1].place + 30]
-        raise TemplateError(f"a bracket is not closed: {begun!r}")
-    levels[0].add(source[place:])
-    return tuple(levels[0].nodes)
+    if opener:
+        raise TemplateError(f"a bracket is not closed: {source[begun : begun + 30]!r}")
+    return [_merged([*nodes, source[place:]])], len(source)
 
 
-def _close(level: _Level, outer: _Level, source: str) -> None:
-    """Add what stood between brackets to the level around them."""
-    first = level.branches[0]
-    if level.opener == "[":
-        slots = frozenset(slot.key for slot in all_slots(first) if not slot.sign)
-        if len(level.branches) > 1 or not slots:
-            problem = "square brackets hold a slot and no bar; write \\[ for the character"
-            raise TemplateError(f"{problem}: {source[:30]!r}")
-        outer.add(Optional(slots, first))
-    elif len(level.branches) > 1:
-        outer.add(Choice(tuple(level.branches)))
-    else:
-        for node in ("(", *first, ")"):
-            outer.add(node)
+def _bracket(opener: str, branches: list[Nodes], source: str) -> Nodes:
+    """What stands between brackets as nodes of the text around them."""
+    if opener == "(":
+        several = len(branches) > 1
+        return (Choice(tuple(branches)),) if several else ("(", *branches[0], ")")
+    slots = frozenset(slot.key for slot in all_slots(branches[0]) if not slot.sign)
+    if len(branches) > 1 or not slots:
+        problem = "square brackets hold a slot and no bar; write \\[ for the character"
+        raise TemplateError(f"{problem}: {source[:30]!r}")
+    return (Optional(slots, branches[0]),)
+
+
+def _merged(nodes: list[Node]) -> Nodes:
+    """The nodes with neighbouring strings as one."""
+    merged: list[Node] = []
+    for node in (one for one in nodes if one):
+        if isinstance(node, str) and merged and isinstance(merged[-1], str):
+            merged[-1] += node
+        else:
+            merged.append(node)
+    return tuple(merged)
 
 
 def parse_slot(source: str) -> Slot:
@@ -188,6 +184,23 @@ def choose(
     return parts
 
 
+class Chosen:
+    """A wording of a text: its parts, the labels and the slots in it; `small`: without capitals."""
+
+    def __init__(self, nodes: Nodes, rng: Random, given: frozenset[str] = frozenset()) -> None:
+        self.parts = choose(nodes, rng, [], given)
+        slots = [part for part in self.parts if isinstance(part, Slot)]
+        self.slots = [slot for slot in slots if slot.sign != "?"]
+        self.labels = {slot.key for slot in slots if slot.sign == "?"}
+        self.said = {slot.key for slot in slots if not slot.sign}
+        self.small = is_small(nodes)
+
+
+def is_small(nodes: Sequence[Node]) -> bool:
+    """Whether a text is written without capitals."""
+    return bool(nodes) and isinstance(nodes[0], str) and nodes[0][:1].islower()
+
+
 # ---------------------------------------------------------------- plans
 
 
@@ -233,15 +246,9 @@ class Step:
 
 def parse_plan(source: str) -> tuple[Step, ...]:
     """The steps of a plan. Raises TemplateError."""
-    steps: list[Step] = []
-    words: list[str] = []
-    for word in [*_WORD.findall(source), ";"]:
-        if word != ";":
-            words.append(word)
-        elif words:
-            steps.append(_step(words))
-            words = []
-    return tuple(steps)
+    words = _WORD.findall(source)
+    groups = (list(group) for end, group in itertools.groupby(words, ";".__eq__) if not end)
+    return tuple(map(_step, groups))
 
 
 def _step(words: list[str]) -> Step:
@@ -254,10 +261,10 @@ def _step(words: list[str]) -> Step:
         if word[0] in "+&" and word[1:2].isupper():
             groups.append([])
         groups[-1].append(word)
-    beside: dict[str, list[Call]] = {"+": [], "&": []}
-    for group in groups[1:]:
-        beside[group[0][0]].append(_call(group))
-    return Step(_call(groups[0]), tuple(beside["+"]), tuple(beside["&"]), each)
+    filters, perceptions = (
+        tuple(_call(group) for group in groups[1:] if group[0][0] == sign) for sign in "+&"
+    )
+    return Step(_call(groups[0]), filters, perceptions, each)
 
 
 def _call(words: list[str]) -> Call:
@@ -266,22 +273,15 @@ def _call(words: list[str]) -> Call:
     head = _HEAD.fullmatch(words[0])
     if head is None:
         raise TemplateError(f"{words[0]!r} is no name of a task, skill or shape")
-    name, label, at = head.groups()
-    return Call(
-        name.strip('"'), tuple(_argument(word) for word in words[1:]), label or "", at or ""
-    )
+    name, label, at = head.groups("")
+    return Call(name.strip('"'), tuple(map(_argument, words[1:])), label, at)
 
 
 def _argument(word: str) -> Argument:
     found = _ARGUMENT.fullmatch(word)
-    name = found["name"] or "" if found else ""
-    negative = bool(found and found["minus"])
-    for group, kind in (("unused", "unused"), ("text", "literal"), ("param", "param")):
-        if found and found[group] is not None:
-            return Argument(kind, found[group], name, negative)
-    if found and found["slot"]:
-        return Argument("slot", found["slot"], name, negative)
-    try:
-        return Argument("literal", float(found["number"] if found else ""), name)
-    except ValueError:
-        raise TemplateError(f"{word!r} is no slot, number, text or param.NAME") from None
+    if found is None:
+        raise TemplateError(f"{word!r} is no slot, number, text or param.NAME")
+    name, kind = found["name"] or "", str(found.lastgroup)
+    if kind == "number":
+        return Argument("literal", float(found["number"]), name)
+    return Argument(_KINDS.get(kind, kind), found[kind], name, bool(found["minus"]))

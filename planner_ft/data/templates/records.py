@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
-from planner_ft.data.templates.grammar import Nodes, Step, TemplateError, parse_plan, parse_text
+from planner_ft.data.templates import grammar
+from planner_ft.data.templates.grammar import Nodes, Step, TemplateError, all_slots
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary
@@ -37,9 +38,7 @@ LISTS = {
 
 @dataclass(eq=False)
 class Template:
-    """A record of a template file; texts and plan are parsed at first use, with a PlannerError
-    that names file and line.
-    """
+    """A record of a template file; parsed at first use, with errors that name file and line."""
 
     id: str
     split: str
@@ -56,17 +55,17 @@ class Template:
 
     @functools.cached_property
     def nodes(self) -> Nodes:
-        return self._parsed(parse_text, self.text)
+        return self._parsed(grammar.parse_text, self.text)
 
     @functools.cached_property
     def steps(self) -> tuple[Step, ...]:
-        return self._parsed(parse_plan, self.plan)
+        return self._parsed(grammar.parse_plan, self.plan)
 
     @functools.cached_property
     def remarks(self) -> tuple[tuple[Nodes, ...], ...]:
         """The constraints and the assumptions."""
         return tuple(
-            tuple(self._parsed(parse_text, line) for line in lines)
+            tuple(self._parsed(grammar.parse_text, line) for line in lines)
             for lines in (self.constraints, self.assumptions)
         )
 
@@ -79,6 +78,12 @@ class Template:
     def error(self, problem: object) -> PlannerError:
         """An error that says where the template stands."""
         return PlannerError(f"{self.where}: {problem}")
+
+    def check_labels(self, steps: str) -> None:
+        """Raise TemplateError for a label that text or plan (called `steps`) have alone."""
+        asked = {call.label for step in self.steps for call in step.calls() if call.label}
+        for name in asked ^ {slot.key for slot in all_slots(self.nodes) if slot.sign == "?"}:
+            raise TemplateError(f"the label ?{name} stands only in the text or only in the {steps}")
 
     @property
     def group(self) -> str:
@@ -96,9 +101,7 @@ def template_files(vocabulary: Vocabulary, kind: Kind) -> list[Path]:
 
 
 def templates(vocabulary: Vocabulary, kind: Kind, split: str | None = None) -> list[list[Template]]:
-    """The vehicle's templates by group, those of one split. Raises PlannerError for a record that
-    is not of the form.
-    """
+    """The vehicle's templates of a split by group. Raises PlannerError for a faulty record."""
     groups: dict[tuple[str, str], list[Template]] = {}
     for path in template_files(vocabulary, kind):
         stem = path.stem

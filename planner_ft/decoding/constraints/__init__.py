@@ -11,9 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Mask = NDArray[np.int32]
-"""Allowed tokens as bits, ceil(n_vocab / 32) words: token t is allowed when bit t % 32 of word t //
-32 is set.
-"""
+"""Allowed tokens as bits of ceil(n_vocab / 32) words: token t is bit t % 32 of word t // 32."""
 TOO_LONG = "The command is too long to hold texts to its words."
 UNPAIRED = "The coordinates in the command could not be read with certainty."
 RAN_ON = "The facts of the command led to a plan that ran on; this one is held to the schema alone."

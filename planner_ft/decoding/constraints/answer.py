@@ -1,6 +1,4 @@
-"""The state of one constrained answer: a row of grammars, each of which can depend on the text
-before it.
-"""
+"""The state of one constrained answer: a row of grammars, each made from the text before it."""
 
 from __future__ import annotations
 
@@ -80,9 +78,7 @@ class Answer:
         return narrowed
 
     def expected(self) -> list[int]:
-        """Tokens that probably follow, since their text must; empty where there is a choice. The
-        state is unchanged.
-        """
+        """Tokens that probably follow, since their text must. The state is unchanged."""
         if self._matcher is None or self._hurried:
             return []
         return self._tokens.spelt(self._ids, self._matcher)[: self._left - self._reserve - 1]
@@ -96,9 +92,8 @@ class Answer:
         """Leave the value that is being written to the model, which would go on with `token`, a
         token without evidence. False where more than evidence forbids it.
         """
-        if self._matcher is None or self._loose is None or self._hurried:
-            return False
-        if not self._loose.validate_tokens([token]):
+        open_ = self._matcher is not None and not self._hurried
+        if not open_ or self._loose is None or not self._loose.validate_tokens([token]):
             return False
         self._matcher, chosen = self._loose.deep_copy(), self._script.chosen
         if chosen is not None:
@@ -111,12 +106,12 @@ class Answer:
             if token not in self._tokens.end_ids:
                 raise ValueError(f"token {token} follows a complete answer")
             return
-        if (self._hurried and not allows(self.mask(), token)) or not (
+        barred = self._hurried and not allows(self.mask(), token)
+        if barred or not (
             self._matcher.validate_tokens([token]) and self._matcher.consume_token(token)
         ):
-            raise ValueError(
-                f"token {token} ({self._tokens.bytes_of(token)!r}) is not allowed here"
-            )
+            said = self._tokens.bytes_of(token)
+            raise ValueError(f"token {token} ({said!r}) is not allowed here")
         if self._loose is not None and not self._loose.consume_token(token):
             self._loose = None
         self._ids.append(token)
@@ -133,7 +128,10 @@ class Answer:
         if within == len(tokens):
             return within
         # Behind the end of this grammar, or near the limit: step by step, on a copy.
-        ahead = self._copy()
+        ahead = copy.copy(self)
+        ahead._matcher, ahead._mask = self._matcher.deep_copy(), self._tokens.new_mask()
+        ahead._loose = None if self._loose is None else self._loose.deep_copy()
+        ahead._released, ahead._ids = dict(self._released), list(self._ids)
         for count, token in enumerate(tokens):
             try:
                 ahead.accept(token)
@@ -153,9 +151,7 @@ class Answer:
         return len(QUOTE.findall(self._tokens.text_of(self._ids))) % 2 == 1
 
     def _closing(self, mask: Mask, must_follow: bytes) -> Mask:
-        """The part of a mask that leads to the end: the longest way through what must follow, else
-        a sign that closes, where one is allowed.
-        """
+        """The part of a mask that leads to the end: what must follow, else a sign that closes."""
         if must_follow:
             return self._tokens.mask_of((self._tokens.shortest(must_follow)[0],))
         for sign in '"' if self._inside else "]},":
@@ -174,11 +170,3 @@ class Answer:
         self._matcher, self._begun = None, len(self._ids)
         if following is not None:
             self._matcher, self._script = self._tokens.compile(following[0]), following[1]
-
-    def _copy(self) -> Answer:
-        other = copy.copy(self)
-        other._matcher = None if self._matcher is None else self._matcher.deep_copy()
-        other._loose = None if self._loose is None else self._loose.deep_copy()
-        other._released, other._ids = dict(self._released), list(self._ids)
-        other._mask = self._tokens.new_mask()
-        return other

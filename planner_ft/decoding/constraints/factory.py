@@ -8,16 +8,34 @@ from typing import Any
 
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints.answer import Answer
-from planner_ft.decoding.constraints.budget import least_limit, reserve
-from planner_ft.decoding.constraints.grammar import SKILL_OPENS, Values
+from planner_ft.decoding.constraints.grammar import (
+    SKILL_OPENS,
+    TASK_OPENS,
+    Values,
+    key,
+    mission_opens,
+)
 from planner_ft.decoding.constraints.grounded import GroundedValues
+from planner_ft.decoding.constraints.patterns import DECIMALS, WHOLE_DIGITS
+from planner_ft.decoding.constraints.spans import LONGEST_WORD
 from planner_ft.decoding.constraints.state import MissionScript
 from planner_ft.decoding.constraints.steps import TaskScript
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
 from planner_ft.decoding.constraints.waypoints import Waypoints, read_waypoints
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.support.files import compact_json
+from planner_ft.vocabulary import Skill, Task, Vocabulary
+from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, Level
+
+_NUMBER = 2 + WHOLE_DIGITS + DECIMALS
+_POSITION = 2 * _NUMBER + 3
+_BYTES = {
+    "number": _NUMBER,
+    "integer": _NUMBER,
+    "position": _POSITION,
+    "polygon": 3 * (_POSITION + 1) + 1,
+}
+"""Bytes that a value takes at most when everything that can be left out is."""
 
 
 def constraint_factory(
@@ -75,8 +93,7 @@ class Factory:
         logical = self.strength != "schema" and not (self.level == "task" and open_place)
         kind = MissionScript if self.level == "mission" else TaskScript
         script = kind(self.vocabulary, Values(), logical=logical and most is None)
-        if most is not None:
-            script = replace(script, most=most)
+        script = script if most is None else replace(script, most=most)
         if self.strength != "grounded" or not script.logical:
             return Answer(self.tokens, script, limit, self._reserve)
         return self._grounded(record, limit, script)
@@ -96,24 +113,61 @@ class Factory:
         found = read_waypoints(record, self.vocabulary) if self.level == "task" else None
         free = found if isinstance(found, str) else ""
         values = GroundedValues(self.level, record, self.vocabulary, free_waypoints=bool(free))
-        if isinstance(script, TaskScript) and isinstance(found, Waypoints):
-            script = replace(script, whole=found)
-        grounded = replace(script, values=values)
-        if isinstance(grounded, TaskScript):
-            grounded = replace(grounded, waypoints=grounded.whole)
         goes = [SKILL_OPENS + skill.name for skill in self.vocabulary.skills if skill.coordinates]
 
         def notes(text: str) -> list[str]:
             moves = any(name in text for name in goes)
             return [*values.notes, *([free] if free and moves else [])]
 
-        # A mission's places are stated or unresolved, its other values can be left out. The lanes of
-        # a grid follow from the task's own parameters: the model is not left to write others.
-        loose = script if self.level == "task" else None
-        if isinstance(loose, TaskScript) and loose.whole and loose.whole.whole:
-            loose = replace(loose, waypoints=loose.whole)
-        return Answer(self.tokens, grounded, limit, self._reserve, notes, loose)
+        if not isinstance(script, TaskScript):
+            # A mission's places are stated or unresolved, its other values can be left out.
+            grounded = replace(script, values=values)
+            return Answer(self.tokens, grounded, limit, self._reserve, notes)
+        known = found if isinstance(found, Waypoints) else None
+        steps = replace(script, values=values, waypoints=known, whole=known)
+        # The lanes of a grid follow from the task's own parameters: the model is not left to write
+        # others.
+        own = known if known and known.whole else None
+        loose = replace(script, waypoints=own, whole=known)
+        return Answer(self.tokens, steps, limit, self._reserve, notes, loose)
 
     @functools.cached_property
     def _reserve(self) -> int:
         return reserve(self.level, self.vocabulary, self.tokens)
+
+
+# ---------------------------------------------------------------- how an answer is closed
+
+# A grammar bounds every list and text, but the sum of the bounds is far above any limit, so the last
+# tokens of the limit are kept for closing what is open. A text that must follow takes at most
+# `most_spelt` tokens wherever it was begun; where there is a choice, no token is shorter than a byte.
+
+
+def reserve(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
+    """Tokens that close a plan from wherever it stands: the task or step that was begun."""
+    spelt = tokens.most_spelt
+    if level == "mission":
+        begun = max(_owner(task.title, task, tokens) for task in vocabulary.tasks)
+        lists = sum(spelt(f",{key(name)}[") + 1 for name in MISSION_KEYS[1:])
+        prompt = spelt("," + TASK_OPENS) + spelt("}," + key("task_prompt") + '"')
+        return begun + prompt + lists + 6 + LONGEST_WORD
+    begun = max(_owner(skill.name, skill, tokens) for skill in vocabulary.skills)
+    lists = sum(spelt("}," + key(name) + "[") + 2 for name in STEP_KEYS[1:])
+    return begun + lists + spelt(",{" + key(STEP_KEYS[0]) + SKILL_OPENS) + 4 + LONGEST_WORD
+
+
+def least_limit(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
+    """The smallest limit within which every answer ends, its beginning and end token included."""
+    opens = mission_opens() if level == "mission" else "{" + key("skill_sequence") + "["
+    return reserve(level, vocabulary, tokens) + tokens.most_spelt(opens) + 1
+
+
+def _owner(name: str, owner: Task | Skill, tokens: Tokens) -> int:
+    """Tokens of a name and the parameters that must be written, or the one that was begun."""
+    sizes = [
+        tokens.most_spelt("," + key(item.name)) + _BYTES.get(item.type, LONGEST_WORD + 2)
+        for item in owner.parameters
+    ]
+    needed = bool(owner.require_any) or any(item.required for item in owner.parameters)
+    opens = len(compact_json(name).encode()) + tokens.most_spelt(f'",{key("parameters")}{{')
+    return opens + (sum(sizes) if needed else max(sizes, default=0))

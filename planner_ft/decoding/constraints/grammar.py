@@ -1,7 +1,7 @@
 """Lark grammars of the two plan forms, put together from a vocabulary and from what its values may
 be.
 
-`Values` decides what a value may be, `Logic` what may stand where; the strengths differ in nothing
+`Values` decides what a value may be, `Script` what may stand where; the strengths differ in nothing
 else. Key order, separators and the order of parameters are those of `answer_text`.
 """
 
@@ -10,19 +10,13 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Iterable, Sequence
-from typing import Protocol
+from dataclasses import dataclass, replace
+from typing import Any
 
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Parameter, Skill, Task
-from planner_ft.vocabulary.plans import (
-    MISSION_KEYS,
-    STEP_KEYS,
-    WORKING,
-    canonical_value,
-    value_problem,
-)
+from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary, plans
 
 MOST_TASKS, MOST_STEPS = 32, 128
 MOST_SKILLS = 16
@@ -34,33 +28,12 @@ LONGEST_WORKING = 600
 """Characters of a working. The longest of 3,000 sampled tasks has 250."""
 LONGEST_TEXT = 200
 LONGEST_PROSE = 400
-"""Characters of a parameter, and of a task prompt, an assumption or a constraint. The longest
-labels have 55 and 181.
-"""
+"""Characters of a parameter, and of a sentence; the longest labels have 55 and 181."""
 
 Positions = Sequence[Sequence[float]]
 
 TASK_OPENS = '{"title":"'
 SKILL_OPENS = '{"name":"'
-
-
-class Script(Protocol):
-    """The grammars of an answer. Each one ends where nothing can follow it, at a place where no
-    token spans both sides: where a name begins or ends, since tokenizers keep letters and signs
-    apart. A script does not change: a copy of an answer goes on with the same one.
-    """
-
-    @property
-    def chosen(self) -> Task | Skill | None:
-        """The task or skill whose name was written last."""
-
-    def opening(self) -> str:
-        """The first grammar."""
-
-    def following(self, text: str) -> tuple[str, Script] | None:
-        """The next grammar, and the script from there, after `text` was matched by the last one;
-        None when the answer is complete.
-        """
 
 
 class Grammar:
@@ -75,9 +48,7 @@ class Grammar:
         return self._named(body, "r")
 
     def terminal(self, body: str) -> str:
-        """The name of a terminal with this body: one lexeme, a regular expression without
-        recursion.
-        """
+        """The name of a terminal (one lexeme, no recursion) with this body."""
         return self._named(body, "T")
 
     def text(self, start: str) -> str:
@@ -139,7 +110,7 @@ class Values:
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         """Whether a parameter's number can be `value`."""
-        return value_problem(value, parameter) is None
+        return plans.value_problem(value, parameter) is None
 
     def text(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
         """The symbol of a parameter's text, none of `without`."""
@@ -160,31 +131,54 @@ class Values:
         return items(grammar, self.prose(grammar), MOST_TEXTS)
 
 
-class Logic:
-    """What may be written as a parameter of a task or skill: here, whatever `values` allow."""
+@dataclass(frozen=True)
+class Script:
+    """The grammars of an answer, made as it grows. Each one ends where nothing can follow it, at a
+    place where no token spans both sides: where a name begins or ends, since tokenizers keep
+    letters and signs apart. A script does not change: a copy of an answer goes on with the same.
 
-    def __init__(self, values: Values) -> None:
-        self.values = values
+    `values` are those that may be written; without `logical`, anything may follow anything. An
+    answer has at most `most` entries; `chosen` is the task or skill whose name was written last.
+    """
+
+    vocabulary: Vocabulary
+    values: Values
+    logical: bool = True
+    most: int = 0
+    chosen: Any = None
+
+    @property
+    def schema_alone(self) -> Script:
+        """This script without facts and logic."""
+        return replace(self, values=Values(), logical=False)
+
+    def opening(self) -> str:
+        """The first grammar."""
+        raise NotImplementedError
+
+    def following(self, text: str) -> tuple[str, Script] | None:
+        """The next grammar and script behind a matched `text`; None: complete."""
+        raise NotImplementedError
 
     def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
+        self, grammar: Grammar, parameter: Parameter, owner: Any, context: Context
     ) -> Options:
-        """The options of a parameter's value."""
+        """The options of a parameter's value: here, whatever `values` allow."""
         return self.values.parameter(grammar, parameter, context)
 
-    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
+    def needs(self, parameter: Parameter, owner: Any) -> bool:
         """Whether a parameter must be written."""
         return parameter.required
 
 
 def written_number(number: float) -> str:
     """A number as plans write it."""
-    return compact_json(canonical_value(number))
+    return compact_json(plans.canonical_value(number))
 
 
 def written(position: Sequence[float]) -> str:
     """A position as plans write it."""
-    return compact_json(canonical_value(list(position)))
+    return compact_json(plans.canonical_value(list(position)))
 
 
 def none_of_texts(texts: Sequence[str]) -> str:
@@ -205,33 +199,28 @@ def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:
 
 
 def sequence_opens(grammar: Grammar) -> str:
-    """The expression before the first step of a skill sequence, with or without a scratchpad of
-    sums in front.
-    """
+    """The expression before the first step, with or without a working in front."""
     opens = literal(key("skill_sequence") + "[")
     sums = grammar.terminal(regex(f'"{patterns.SUMS}{{1,{LONGEST_WORKING}}}"'))
-    return f'"{{" ({literal(key(WORKING))} {sums} ",")? {opens}'
+    return f'"{{" ({literal(key(plans.WORKING))} {sums} ",")? {opens}'
 
 
 def mission_opens() -> str:
     """The text before the first task of a mission plan."""
-    return "{" + key(MISSION_KEYS[0]) + "["
+    return "{" + key(plans.MISSION_KEYS[0]) + "["
 
 
 def mission_closes(grammar: Grammar, values: Values) -> str:
     """The expression behind the last task of a mission plan."""
     texts = items(grammar, values.prose(grammar), MOST_TEXTS)
-    assumptions, constraints = (key(name) for name in MISSION_KEYS[1:])
-    return (
-        f"{literal('],' + assumptions)} {texts} {literal(',' + constraints)} {texts} {literal('}')}"
-    )
+    assumptions, constraints = (f",{key(name)}" for name in plans.MISSION_KEYS[1:])
+    return f"{literal(']' + assumptions)} {texts} {literal(constraints)} {texts} {literal('}')}"
 
 
 def step_tail(grammar: Grammar, values: Values) -> str:
     """The rule of a step behind its perception skills, up to its closing brace."""
-    tail = [
-        f"{literal(',' + key(name))} {values.step_texts(grammar, name)}" for name in STEP_KEYS[3:]
-    ]
+    keys = ((literal(f",{key(name)}"), name) for name in plans.STEP_KEYS[3:])
+    tail = [f"{opens} {values.step_texts(grammar, name)}" for opens, name in keys]
     return grammar.rule(f"{' '.join(tail)} {literal('}')}")
 
 
@@ -259,29 +248,25 @@ def corners(grammar: Grammar, position: str) -> str:
     return grammar.rule(f'"[" {position} ("," {position}){{2,{MOST_CORNERS - 1}}} "]"')
 
 
-def body(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | None:
-    """The rule of a task or skill behind its name, up to its closing brace; None where a required
-    parameter has no value.
-    """
-    parameters = _parameters(grammar, owner, logic)
+def body(grammar: Grammar, owner: Task | Skill, script: Script) -> str | None:
+    """The rule of a task or skill behind its name; None where a needed value is missing."""
+    parameters = _parameters(grammar, owner, script)
     if parameters is None:
         return None
     opens, closes = literal(f'",{key("parameters")}{{'), literal("}")
     if isinstance(owner, Task):
-        closes = f"{literal(',' + key('task_prompt'))} {logic.values.prose(grammar)} {closes}"
+        closes = f"{literal(',' + key('task_prompt'))} {script.values.prose(grammar)} {closes}"
     return grammar.rule(f"{opens} {parameters} {closes}")
 
 
-def possible(owner: Task | Skill, logic: Logic) -> bool:
+def possible(owner: Task | Skill, script: Script) -> bool:
     """Whether the parameters of a task or skill can be written."""
-    needy = owner.require_any or any(logic.needs(item, owner) for item in owner.parameters)
-    return not needy or _parameters(Grammar(), owner, logic) is not None
+    needy = owner.require_any or any(script.needs(item, owner) for item in owner.parameters)
+    return not needy or _parameters(Grammar(), owner, script) is not None
 
 
-def _parameters(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | None:
-    """The rule of an owner's parameters behind their opening brace, up to the closing one; None
-    where none can be written.
-    """
+def _parameters(grammar: Grammar, owner: Task | Skill, script: Script) -> str | None:
+    """The rule of an owner's parameters between their braces; None where none can be written."""
 
     @functools.cache
     def rest(index: int, comma: bool, satisfied: bool, context: Context) -> str | None:
@@ -289,10 +274,10 @@ def _parameters(grammar: Grammar, owner: Task | Skill, logic: Logic) -> str | No
             return literal("}") if satisfied else None
         parameter, options = owner.parameters[index], []
         opens = literal("," * comma + key(parameter.name))
-        for value, after in logic.parameter(grammar, parameter, owner, context):
+        for value, after in script.parameter(grammar, parameter, owner, context):
             behind = rest(index + 1, True, satisfied or parameter.name in owner.require_any, after)
             options += [f"{opens} {value} {behind}"] if behind else []
-        if not logic.needs(parameter, owner):
+        if not script.needs(parameter, owner):
             behind = rest(index + 1, comma, satisfied, context)
             options += [behind] if behind else []
         return grammar.rule(" | ".join(options)) if options else None

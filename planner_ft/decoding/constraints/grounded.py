@@ -14,19 +14,8 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from planner_ft.decoding.constraints import TOO_LONG, UNPAIRED, patterns
-from planner_ft.decoding.constraints.grammar import (
-    LONGEST_PROSE,
-    MOST_TEXTS,
-    Context,
-    Grammar,
-    Options,
-    Positions,
-    Values,
-    items,
-    one_of,
-    written,
-    written_number,
-)
+from planner_ft.decoding.constraints import grammar as lark
+from planner_ft.decoding.constraints.grammar import Context, Grammar, Options, Positions, Values
 from planner_ft.decoding.constraints.patterns import regex
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.facts import read_input
@@ -86,14 +75,14 @@ class GroundedValues(Values):
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().number(grammar, parameter, without)
-        barred = {written_number(number) for number in without}
-        return one_of(grammar, (number for number in numbers if number not in barred))
+        barred = {lark.written_number(number) for number in without}
+        return lark.one_of(grammar, (number for number in numbers if number not in barred))
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().has_number(parameter, value)
-        return written_number(value) in numbers
+        return lark.written_number(value) in numbers
 
     def position(self, grammar: Grammar, without: Positions = ()) -> str | None:
         barred = {tuple(other) for other in without}
@@ -105,7 +94,8 @@ class GroundedValues(Values):
             # "The box from (0, 0) to (40, 20)" has the corners in between.
             crossed = len(known) <= MOST_CROSSED
             places = itertools.product(*zip(*known, strict=True)) if crossed else known
-        return one_of(grammar, (written(place) for place in places if tuple(place) not in barred))
+        allowed = (place for place in places if tuple(place) not in barred)
+        return lark.one_of(grammar, map(lark.written, allowed))
 
     def text(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
         if self._spans.too_long:
@@ -125,13 +115,20 @@ class GroundedValues(Values):
         known = {getattr(skill, REPORTS[key]) for skill in self._vocabulary.skills} - {None}
         if not known:
             return super().step_texts(grammar, key)
-        return items(grammar, one_of(grammar, map(compact_json, sorted(known))), MOST_TEXTS)
+        reports = lark.one_of(grammar, map(compact_json, sorted(known)))
+        return lark.items(grammar, reports, lark.MOST_TEXTS)
 
     def _written_numbers(self, parameter: Parameter) -> list[str] | None:
-        """Texts of a parameter's number; None where any number can be meant."""
-        if parameter not in self._numbers:
-            values = None if self._facts.unread else self._source.values(parameter)
-            self._numbers[parameter] = None if values is None else _usable(values, parameter)
+        """Texts of a parameter's number, smallest first; None where any number can be meant."""
+        if parameter not in self._numbers and self._facts.unread:
+            self._numbers[parameter] = None
+        elif parameter not in self._numbers:
+            low, high, whole = parameter.minimum, parameter.maximum, parameter.type == "integer"
+            values = (one for one in self._source.values(parameter) if abs(one) < LARGEST)
+            found = sorted({round(value, digits) for value in values for digits in (2, 4)})
+            within = (one for one in found if low is None or high is None or low <= one <= high)
+            usable = (one for one in within if not whole or one == int(one))
+            self._numbers[parameter] = list(map(lark.written_number, usable))
         return self._numbers[parameter]
 
     @functools.cached_property
@@ -143,18 +140,9 @@ class GroundedValues(Values):
             if parameter.type in ("number", "integer"):
                 known |= {text.lstrip("-") for text in self._written_numbers(parameter) or ()}
                 said = (abs(number.said) for number in self._facts.numbers(parameter.unit))
-                known |= {written_number(value) for value in said}
-        known |= {written_number(abs(value)) for place in self._places for value in place}
+                known |= {lark.written_number(value) for value in said}
+        known |= {lark.written_number(abs(value)) for place in self._places for value in place}
         return prose(number for number in known if len(number) <= LONGEST_NUMBER)
-
-
-def _usable(values: Iterable[float], parameter: Parameter) -> list[str]:
-    """The values that a parameter can have, as they are written, smallest first."""
-    low, high = parameter.minimum, parameter.maximum
-    found = {round(value, digits) for value in values if abs(value) < LARGEST for digits in (2, 4)}
-    within = (value for value in found if low is None or high is None or low <= value <= high)
-    whole = parameter.type == "integer"
-    return [written_number(one) for one in sorted(within) if not whole or one == int(one)]
 
 
 def prose(numbers: Iterable[str]) -> str:
@@ -162,4 +150,4 @@ def prose(numbers: Iterable[str]) -> str:
     other = r'([^"\\0-9\x00-\x1f\x7f]|\\["\\bfnrt])'
     known = "|".join(sorted(patterns.escaped(number) for number in numbers))
     number = f"({known})?" if known else ""
-    return regex(f'"({number}{other}){{0,{LONGEST_PROSE}}}{number}"')
+    return regex(f'"({number}{other}){{0,{lark.LONGEST_PROSE}}}{number}"')

@@ -13,13 +13,9 @@ import math
 from fractions import Fraction
 
 WHOLE_DIGITS = 7
-"""Digits before the point where a definition sets no range: lengths of ten thousand kilometres in
-metres.
-"""
+"""Digits before the point where a definition sets no range."""
 DECIMALS = 4
-"""Digits behind the point. Labels have two; with more than four, Python would write small numbers
-with an exponent.
-"""
+"""Digits behind the point; with more, Python would write small numbers with an exponent."""
 
 QUOTE = '"'
 CHARACTER = r'[^"\\\x00-\x1f\x7f]'
@@ -54,9 +50,7 @@ def escaped(text: str) -> str:
 
 
 def string(longest: int, *, blank: bool) -> str:
-    """A JSON string of at most `longest` characters; without `blank` it begins with one that is no
-    blank.
-    """
+    """A JSON string of at most `longest` characters, `blank` ones allowed at its beginning."""
     rest = longest if blank else longest - 1
     return regex(rf'"{"" if blank else FIRST}({CHARACTER}|{ESCAPE}){{0,{rest}}}"')
 
@@ -69,9 +63,7 @@ ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTIO
 ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
 CLOSING_ZEROS = r"-?[0-9]+\.[0-9]*0"
 SUMS = r"[xy0-9.+/=;\-]"
-"""Signs of a working (see planner_ft.data.task.working). Its form is not enforced: where sums are
-read, wrong ones derive nothing.
-"""
+"""Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
 
 
 @functools.lru_cache(maxsize=1024)
@@ -90,9 +82,7 @@ def number_range(minimum: float, maximum: float, *, whole: bool) -> str:
 
 
 def _digits(low: int, high: int, decimals: int) -> list[str]:
-    """Patterns of the whole numbers from `low` to `high`, one for each number of digits, with a
-    point before the last `decimals`.
-    """
+    """Patterns of whole numbers, one per number of digits, a point before the last `decimals`."""
     options = []
     for count in range(decimals + 1, max(len(str(high)), decimals + 1) + 1):
         first = max(low, 10 ** (count - 1) if count > decimals + 1 else 0)

@@ -13,97 +13,32 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 
-from planner_ft.decoding.constraints.grammar import (
-    IDENTIFIED,
-    MOST_TASKS,
-    TASK_OPENS,
-    Context,
-    Grammar,
-    Logic,
-    Options,
-    Script,
-    Values,
-    body,
-    mission_closes,
-    mission_opens,
-    possible,
-    prefix_free,
-    written,
-)
+from planner_ft.decoding.constraints import grammar as lark
+from planner_ft.decoding.constraints.grammar import TASK_OPENS, Context, Grammar, Options, Script
 from planner_ft.decoding.constraints.patterns import literal, quoted
-from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary import Parameter, Task
 from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 
-class MissionLogic(Logic):
-    """What the tasks so far leave for the next one."""
-
-    def __init__(self, values: Values, vocabulary: Vocabulary, progress: Progress) -> None:
-        super().__init__(values)
-        self._vocabulary, self._progress = vocabulary, progress
-
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task | Skill, context: Context
-    ) -> Options:
-        symbol: str | None = None
-        if isinstance(owner, Task) and parameter.name == owner.position_parameter:
-            symbol = self._place(grammar, owner, identified=context >= IDENTIFIED)
-        elif self._is_target(parameter, owner):
-            searched = [target for target in self._progress.searched if target]
-            symbol = self.values.text(grammar, searched)
-        else:
-            return super().parameter(grammar, parameter, owner, context)
-        return [(symbol, context)] if symbol else []
-
-    def needs(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        # Two searches that name no target are the same search.
-        again = self._is_target(parameter, owner) and "" in self._progress.searched
-        return super().needs(parameter, owner) or again
-
-    def _is_target(self, parameter: Parameter, owner: Task | Skill) -> bool:
-        search = isinstance(owner, Task) and owner.title == self._vocabulary.locate
-        return isinstance(owner, Task) and search and parameter == target_parameter(owner)
-
-    def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
-        progress, unresolved, at = self._progress, self._vocabulary.unresolved, self._progress.here
-        unknown = not identified and (bool(progress.searched) or task.docks)
-        if task.arrival == "transit":
-            lost = at is None or (at == unresolved and not unknown)
-            return None if at is None or lost else literal(written(at))
-        without = [] if unknown else [unresolved]
-        # Two places that are not known yet look the same: behind a second search, unresolved can be
-        # another place.
-        same = at == unresolved and len(progress.searched) > 1
-        if task.title == self._vocabulary.transit and at and not (same or progress.moved):
-            without.append(at)
-        return self.values.position(grammar, without)
-
-
 @dataclass(frozen=True)
-class MissionScript:
-    """Grammars of a mission plan, made as it grows: the titles that may follow, then what stands
-    behind the `chosen` title. Without `logical`, any task may follow any other.
-    """
+class MissionScript(Script):
+    """A mission plan: the titles that may follow, then what follows the `chosen` title."""
 
-    vocabulary: Vocabulary
-    values: Values
-    logical: bool = True
-    most: int = MOST_TASKS
+    most: int = lark.MOST_TASKS
     progress: Progress = START
-    chosen: Task | None = None
 
     def opening(self) -> str:
         grammar = Grammar()
-        closes = mission_closes(grammar, self.values)
-        return grammar.text(f"{literal(mission_opens())} ({literal(TASK_OPENS)} | {closes})")
+        closes = lark.mission_closes(grammar, self.values)
+        return grammar.text(f"{literal(lark.mission_opens())} ({literal(TASK_OPENS)} | {closes})")
 
     def following(self, text: str) -> tuple[str, Script] | None:
         if self.chosen is None and text in self.vocabulary.task:
             chosen = replace(self, chosen=self.vocabulary.task[text])
-            return chosen._tasks([self.vocabulary.task[text]], titles=False), chosen
+            return chosen._tasks([chosen.chosen], titles=False), chosen
         if not text.endswith(TASK_OPENS):
             return None
-        if text == mission_opens() + TASK_OPENS:
+        if text == lark.mission_opens() + TASK_OPENS:
             return self._titles(), self
         title = self.chosen.title if self.chosen else ""
         entry, _end = json.JSONDecoder().raw_decode(TASK_OPENS + quoted(title) + text)
@@ -113,18 +48,15 @@ class MissionScript:
         return ahead._titles(), ahead
 
     def _titles(self) -> str:
-        """The titles that may follow; with their tasks where a title can be the beginning of
-        another.
-        """
-        known, logic = self.vocabulary.tasks, self._logic
+        """The titles that may follow; with their tasks where one can be another's beginning."""
+        known = self.vocabulary.tasks
+        # A vocabulary can be such that nothing fits; the schema alone holds then.
         offered = [
             task
             for task in known
-            if (not self.logical or self.progress.offers(task)) and possible(task, logic)
-        ]
-        # A vocabulary can be such that nothing fits; the schema alone holds then.
-        offered = offered or list(known)
-        if prefix_free(task.title for task in known):
+            if (not self.logical or self.progress.offers(task)) and lark.possible(task, self)
+        ] or list(known)
+        if lark.prefix_free(task.title for task in known):
             return Grammar().text(" | ".join(literal(task.title) for task in offered))
         return self._tasks(offered, titles=True)
 
@@ -132,14 +64,46 @@ class MissionScript:
         grammar, options = Grammar(), []
         for task in tasks:
             title = literal(quoted(task.title)) if titles else ""
-            behind = body(grammar, task, self._logic) or body(grammar, task, Logic(Values()))
+            behind = lark.body(grammar, task, self)
+            behind = behind or lark.body(grammar, task, self.schema_alone)
             options += [f"{title} {behind}"] if behind else []
         more = f"{literal(',' + TASK_OPENS)} | " if self.progress.tasks + 1 < self.most else ""
-        closes = mission_closes(grammar, self.values)
+        closes = lark.mission_closes(grammar, self.values)
         return grammar.text(f"({' | '.join(options)}) ({more}{closes})")
 
-    @property
-    def _logic(self) -> Logic:
-        if not self.logical:
-            return Logic(self.values)
-        return MissionLogic(self.values, self.vocabulary, self.progress)
+    # ------------------------------------------------------------ what the tasks so far leave
+
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, owner: Task, context: Context
+    ) -> Options:
+        if self.logical and parameter.name == owner.position_parameter:
+            symbol = self._place(grammar, owner, identified=context >= lark.IDENTIFIED)
+        elif self._is_target(parameter, owner):
+            searched = [target for target in self.progress.searched if target]
+            symbol = self.values.text(grammar, searched)
+        else:
+            return super().parameter(grammar, parameter, owner, context)
+        return [(symbol, context)] if symbol else []
+
+    def needs(self, parameter: Parameter, owner: Task) -> bool:
+        # Two searches that name no target are the same search.
+        again = self._is_target(parameter, owner) and "" in self.progress.searched
+        return super().needs(parameter, owner) or again
+
+    def _is_target(self, parameter: Parameter, owner: Task) -> bool:
+        search = self.logical and owner.title == self.vocabulary.locate
+        return search and parameter == target_parameter(owner)
+
+    def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
+        progress, unresolved, at = self.progress, self.vocabulary.unresolved, self.progress.here
+        unknown = not identified and (bool(progress.searched) or task.docks)
+        if task.arrival == "transit":
+            lost = at is None or (at == unresolved and not unknown)
+            return None if at is None or lost else literal(lark.written(at))
+        without = [] if unknown else [unresolved]
+        # Two places that are not known yet look the same: behind a second search, unresolved can be
+        # another place.
+        same = at == unresolved and len(progress.searched) > 1
+        if task.title == self.vocabulary.transit and at and not (same or progress.moved):
+            without.append(at)
+        return self.values.position(grammar, without)

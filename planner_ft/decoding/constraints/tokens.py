@@ -1,6 +1,4 @@
-"""A tokenizer as the grammar engine sees it: tokens as bytes, ends of an answer, and masks of
-tokens as bits.
-"""
+"""A tokenizer as the grammar engine sees it: tokens as bytes, ends, masks of tokens as bits."""
 
 from __future__ import annotations
 
@@ -8,7 +6,6 @@ import copy
 import functools
 import itertools
 from bisect import bisect_right
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -21,9 +18,7 @@ if TYPE_CHECKING:
     from llguidance import LLMatcher, LLTokenizer
 
 GRAMMARS = 256
-"""Compiled grammars that are kept per tokenizer: the states of a plan come again with every
-command.
-"""
+"""Compiled grammars that are kept: the states of a plan come again with every command."""
 
 TEXT_SLICES = [rf'[^0-9"\\\x00-\x1F\x7F]{{1,{longest}}}' for longest in (10, 30)]
 """Tokens without digits, which the engine allows or refuses together: sentences whose numbers are
@@ -32,20 +27,14 @@ known allow them all.
 With a vocabulary of 128k, a mask takes 0.2 ms instead of 1.5.
 """
 LEAST_GROWN = 4
-"""Bytes of a forced text from which on longer tokens are looked for; of the last few the engine
-itself sees whether they may grow.
-"""
+"""Bytes of a forced text from which on longer tokens are looked for; the engine sees fewer."""
 CONTEXT = 8
-"""Tokens before a forced text that it is spelt with at first; the whole answer where they do not
-suffice.
-"""
+"""Tokens before a forced text that it is spelt with, the whole answer where they do not do."""
 
 
 @dataclass(frozen=True, eq=False)
 class Tokens:
-    """Tokens of a tokenizer. `n_vocab` is the width of the model's logits, which can be padded;
-    `end_ids` end an answer.
-    """
+    """A tokenizer's tokens; `n_vocab` is the width of the logits, `end_ids` end an answer."""
 
     engine: LLTokenizer
     n_vocab: int
@@ -58,50 +47,33 @@ class Tokens:
 
     @functools.cached_property
     def byte(self) -> dict[str, int | None]:
-        """The tokens that are a single closing sign, or a comma; None where the tokenizer has
-        none.
-        """
-        single = {}
-        for sign in '"]},':
-            ids = self.engine.greedy_tokenize(sign)
-            single[sign] = ids[0] if len(ids) == 1 else None
-        return single
+        """The token of a closing sign, or a comma; None where the tokenizer has none alone."""
+        spelt = {sign: self.engine.greedy_tokenize(sign) for sign in '"]},'}
+        return {sign: ids[0] if len(ids) == 1 else None for sign, ids in spelt.items()}
 
     @functools.cached_property
     def _by_bytes(self) -> tuple[dict[bytes, int], int]:
         """Ordinary tokens by their bytes, and the length of the longest."""
-        ordinary = (
-            token
-            for token in range(self.engine.vocab_size)
-            if not self.engine.is_special_token(token)
-        )
-        found = {self.bytes_of(token): token for token in ordinary}
+        every, special = range(self.engine.vocab_size), self.engine.is_special_token
+        found = {self.bytes_of(token): token for token in every if not special(token)}
         found.pop(b"", None)
         return found, max(map(len, found))
 
     def shortest(self, text: bytes) -> list[int]:
         """The fewest tokens that spell a text."""
         known, longest = self._by_bytes
-        best: list[tuple[int, int]] = [(0, 0)] * (len(text) + 1)
+        best: list[tuple[int, list[int]]] = [(0, [])] * (len(text) + 1)
         for start in range(len(text) - 1, -1, -1):
-            ends = (
-                end
-                for end in range(start + 1, min(start + longest, len(text)) + 1)
-                if text[start:end] in known
+            ends = range(start + 1, min(start + longest, len(text)) + 1)
+            end = min(
+                (one for one in ends if text[start:one] in known), key=lambda one: best[one][0]
             )
-            best[start] = min((best[end][0] + 1, end) for end in ends)
-        ids, place = [], 0
-        while place < len(text):
-            end = best[place][1]
-            ids.append(known[text[place:end]])
-            place = end
-        return ids
+            best[start] = best[end][0] + 1, [known[text[start:end]], *best[end][1]]
+        return best[0][1]
 
     @functools.lru_cache(maxsize=4096)  # noqa: B019 - tokens are kept as long as their tokenizer
     def most_spelt(self, text: str) -> int:
-        """The most tokens that `shortest` needs for what is left of a text, wherever it was
-        begun.
-        """
+        """The most tokens that `shortest` needs for what is left of a text from anywhere on."""
         whole = text.encode()
         return max(len(self.shortest(whole[start:])) for start in range(len(whole)))
 
@@ -150,11 +122,9 @@ class Tokens:
         return [*longer, *self._spelling(before, text)[:1]] if longer else []
 
     def _spelling(self, before: list[int], text: bytes) -> list[int]:
-        """The tokens of a text behind the tokens `before`; none where those are not spelt as the
-        tokenizer would.
-
-        The engine spells it as if it stood alone. A tokenizer that joins `,"sp` and `eed":` would
-        be given tokens there that no training text has.
+        """The tokens of a text behind `before`; none where those are not spelt as the tokenizer
+        would. The engine spells it as if it stood alone: a tokenizer that joins `,"sp` and `eed":`
+        would be given tokens there that no training text has.
         """
         for context in (before[-CONTEXT:], before) if text else ():
             ids = self.engine.tokenize_bytes(self.text_of(context) + text)
@@ -177,11 +147,7 @@ class Tokens:
 
     def compile(self, grammar: str) -> LLMatcher:
         """A matcher at the beginning of a grammar."""
-        return self._compiled(grammar).deep_copy()
-
-    @functools.cached_property
-    def _compiled(self) -> Callable[[str], LLMatcher]:
-        return functools.lru_cache(maxsize=GRAMMARS)(functools.partial(_compile, self.engine))
+        return _compiled(self.engine, grammar).deep_copy()
 
 
 def allows(mask: Mask, token: int | None) -> bool:
@@ -191,9 +157,7 @@ def allows(mask: Mask, token: int | None) -> bool:
 
 @functools.lru_cache(maxsize=4)
 def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = None) -> Tokens:
-    """The tokens of a Hugging Face tokenizer; seconds for a large vocabulary, so the result is
-    kept. Raises PlannerError for a slow one.
-    """
+    """The (kept) tokens of a tokenizer. Raises PlannerError for a slow one."""
     from llguidance import LLTokenizer
 
     width = max(n_vocab or 0, len(tokenizer))
@@ -209,9 +173,7 @@ def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = No
 
 
 def _definition(tokenizer: Any) -> str:
-    """The tokenizer.json of a tokenizer, without padding and truncation. Raises ValueError for a
-    slow one.
-    """
+    """The tokenizer.json, without padding and truncation. Raises ValueError for slow tokenizers."""
     if not hasattr(tokenizer, "backend_tokenizer"):
         raise ValueError("only fast tokenizers are supported")
     backend = copy.copy(tokenizer.backend_tokenizer)
@@ -220,7 +182,8 @@ def _definition(tokenizer: Any) -> str:
     return str(backend.to_str())
 
 
-def _compile(engine: LLTokenizer, grammar: str) -> LLMatcher:
+@functools.lru_cache(maxsize=GRAMMARS)
+def _compiled(engine: LLTokenizer, grammar: str) -> LLMatcher:
     from llguidance import LLMatcher
 
     matcher = LLMatcher(engine, grammar)

@@ -52,9 +52,7 @@ class Waypoints:
     whole: bool = False
 
     def shown(self, working: str) -> Waypoints:
-        """These with the coordinates that a scratchpad (planner_ft.data.task.working) derives from
-        the facts; wrong sums derive nothing.
-        """
+        """These with the coordinates of right sums of a working (data.task.working)."""
         found = tuple({place[axis] for place in self.places} for axis in (0, 1))
         lengths = set(self.lengths)
         for axis, base, sign, away, result in SUM.findall(working):
@@ -97,9 +95,7 @@ class Waypoints:
         return bool(begun) and all(self.begun <= done < len(path) - more for path, done in begun)
 
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
-        """The paths of which the last waypoints are the beginning, with how many: those with the
-        most.
-        """
+        """The paths that begin with the last waypoints, with how many: those with the most."""
         found = [
             (path, place + 1)
             for path, place in self._passing.get(before[-1] if before else (), ())
@@ -135,26 +131,21 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
     if own:
         return Waypoints(places, ground.lengths, ground.bearings, own, begun=1, whole=True)
     grid = pattern == "lawnmower" or GRID.search(source.facts.text)
-    found = itertools.chain(_grids(ground) if grid else (), _rings(ground))
+    lanes = (
+        _lanes((x, y), width, length, spacing)
+        for x, y, width, length in (ground.areas if grid else ())
+        for spacing in ground.spacings(width, length)
+    )
+    found = itertools.chain(itertools.chain.from_iterable(lanes), _rings(ground))
     paths = tuple(dict.fromkeys(itertools.islice(found, MOST_PATHS)))
     if pattern in SHAPED and not paths:
-        return (
-            f"The command states no {SHAPED[pattern]} for {title}; its waypoints are the model's."
-        )
+        lacking = SHAPED[pattern]
+        return f"The command states no {lacking} for {title}; its waypoints are the model's."
     return Waypoints(places, ground.lengths, ground.bearings, paths, begun)
 
 
-def _grids(ground: Ground) -> Iterator[Path]:
-    """The lanes of every area."""
-    for x, y, width, length in ground.areas:
-        for spacing in ground.spacings(width, length):
-            yield from _lanes((x, y), width, length, spacing)
-
-
 def _own_lanes(source: Input, places: Sequence[Point]) -> Iterator[Path]:
-    """The lanes of the area that a task's parameters give; none where a bare number of the text may
-    say how many of them are meant: "the first three".
-    """
+    """Lanes of a task's own area; none where a bare number may be of lanes: "the first three"."""
     assert source.task is not None
     names = (source.task.position_parameter, *SIZES)
     middle, width, length, spacing = (source.parameters.get(str(name)) for name in names)
@@ -176,9 +167,7 @@ def _lanes(middle: Point, width: float, length: float, spacing: float) -> Iterat
 
 
 def _rings(ground: Ground) -> Iterator[Path]:
-    """Squares, their corners or mid-sides alone, and points evenly round a circle; each also
-    closed.
-    """
+    """Squares, or their corners or mid-sides, and points evenly round circles; each also closed."""
     ways, counts = (False, True), [count for count in ground.counts if count >= 3]
     for centre, radius in itertools.product(ground.places, ground.lengths):
         rings = []

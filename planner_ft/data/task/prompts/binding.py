@@ -17,6 +17,7 @@ from planner_ft.data.templates.grammar import (
     TemplateError,
     all_slots,
     base_of,
+    fail,
 )
 from planner_ft.data.templates.records import Template
 from planner_ft.vocabulary.definition import Role, Task, Vocabulary
@@ -27,9 +28,7 @@ WORDS = ("start", "turn", "axis")
 
 
 class Source(NamedTuple):
-    """How a slot's value is drawn, the place that a task parameter fills, and whether it is a list
-    of texts.
-    """
+    """How a value is drawn, the place that a task parameter fills, whether it is a list."""
 
     draw: Draw
     place: str
@@ -67,10 +66,9 @@ def binding(template: Template, title: str, book: Phrasebook) -> Bound | None:
     """
     key = book.vocabulary, title
     if key not in template.bound:
-        if title not in book.vocabulary.task:
-            raise template.error(f"there is no task {title}")
         try:
-            template.bound[key] = bind(template, book.vocabulary.task[title], book)
+            task = book.vocabulary.task.get(title) or fail(f"there is no task {title}")
+            template.bound[key] = bind(template, task, book)
         except TemplateError as error:
             if "*" not in template.tasks:
                 raise template.error(error) from None
@@ -92,24 +90,18 @@ def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
         if step.call.name != "ALL":
             bound.steps.append(binder.step(step))
         elif bound.everywhere is None:
-            bound.everywhere = binder.beside(step)
-            bound.front = not bound.steps
-    unused = binder.keys - bound.sources.keys()
-    if unused:
-        raise TemplateError(
+            bound.everywhere, bound.front = binder.beside(step), not bound.steps
+    if unused := binder.keys - bound.sources.keys():
+        fail(
             f"{{{min(unused)}}} stands in the text and in no step; for words that are no value of"
             " the plan write {_list}"
         )
-    asked = {call.label for step in template.steps for call in step.calls() if call.label}
-    for name in asked ^ {slot.key for slot in slots if slot.sign == "?"}:
-        raise TemplateError(f"the label ?{name} stands only in the text or only in the steps")
+    template.check_labels("steps")
     if not bound.steps:
-        raise TemplateError("there is no step")
-    for slot in slots:
-        if slot.sign == "~" and slot.key not in bound.sources:
-            raise TemplateError(
-                f"{{~{slot.key}}} is another value of {{{slot.key}}}, which is missing"
-            )
+        fail("there is no step")
+    for key in (slot.key for slot in slots if slot.sign == "~"):
+        if key not in bound.sources:
+            fail(f"{{~{key}}} is another value of {{{key}}}, which is missing")
     return bound
 
 
@@ -133,8 +125,7 @@ class _Binder:
     def parameter(self, name: str) -> bool:
         """Note that the text or the plan refers to a task parameter; whether it is a position."""
         if name not in self.task.by_name:
-            has = _among(self.task.by_name)
-            raise TemplateError(f"{self.task.title} has no parameter {name}{has}")
+            fail(f"{self.task.title} has no parameter {name}{_among(self.task.by_name)}")
         self.bound.params.add(name)
         return self.task.by_name[name].type == "position"
 
@@ -146,51 +137,48 @@ class _Binder:
 
     def _use(self, key: str, source: Source) -> None:
         if key not in self.keys:
-            raise TemplateError(f"{{{key}}} stands in a step and not in the text")
+            fail(f"{{{key}}} stands in a step and not in the text")
         self.bound.sources.setdefault(key, source)
 
     def _skill(self, call: Call, role: Role) -> Call:
-        skill = self.book.vocabulary.skill.get(call.name)
-        if skill is None:
-            raise TemplateError(f"there is no skill {call.name}")
+        skill = self.book.vocabulary.skill.get(call.name) or fail(f"there is no skill {call.name}")
         if skill.role != role:
             how = "as a step" if skill.role == "navigation" else "with + or &"
-            raise TemplateError(f"{call.name} is a {skill.role} skill: write it {how}")
-        goto = skill.motion == "goto"
+            fail(f"{call.name} is a {skill.role} skill: write it {how}")
+        place = XY if skill.motion == "goto" else ""
         arguments: list[Argument] = []
         for argument in call.arguments:
-            name = self._name(argument, XY if goto else "")
-            if name not in skill.by_name and not (goto and name == XY):
-                raise TemplateError(f"{call.name} has no parameter {name}{_among(skill.by_name)}")
-            if argument.kind == "slot" and name == XY:
-                draw = value_draw("Offset", "point", "P")
-                self._use(str(argument.value), Source(draw, f"{call.name}.{XY}"))
-            elif argument.kind == "slot":
-                draw = self.book.skills[call.name].draws[name]
-                several = skill.by_name[name].type == "texts"
+            name = self._name(argument, place)
+            if name not in skill.by_name and name != (place or None):
+                fail(f"{call.name} has no parameter {name}{_among(skill.by_name)}")
+            if argument.kind == "slot":
+                own = name != XY
+                draws = self.book.skills[call.name].draws
+                draw = draws[name] if own else value_draw("Offset", "point", "P")
+                several = own and skill.by_name[name].type == "texts"
                 self._use(str(argument.value), Source(draw, f"{call.name}.{name}", several))
-            arguments.append(Argument(argument.kind, argument.value, name, argument.negative))
+            arguments.append(replace(argument, name=name))
         given = {argument.name for argument in arguments}
-        if goto and XY not in given and not {"x", "y"} <= given:
-            raise TemplateError(f"{call.name} needs a position: P1 or param.NAME")
+        if place and XY not in given and not {"x", "y"} <= given:
+            fail(f"{call.name} needs a position: P1 or param.NAME")
         return replace(call, arguments=tuple(arguments))
 
     def _shape(self, call: Call) -> Call:
         shape = SHAPES[call.name]
         if shape.motion not in self.book.motions:
-            raise TemplateError(f"the vehicle has no skill for {call.name}")
+            fail(f"the vehicle has no skill for {call.name}")
         arguments: dict[str, Argument] = {}
         for argument in call.arguments:
             role, value = self._name(argument, "point"), str(argument.value)
             if role not in shape.roles and role not in shape.options:
-                raise TemplateError(f"{call.name} has no use for {role}")
+                fail(f"{call.name} has no use for {role}")
             if argument.kind == "slot" and role in WORDS and value not in self.keys:
                 argument = replace(argument, kind="literal")
             elif argument.kind == "slot":
                 joint = call.name == "Grid" and role in ("width", "length", "spacing", "count")
                 draw = _no_draw if joint else value_draw(call.name, role, base_of(value))
                 self._use(value, Source(draw, shape.roles.get(role, "")))
-            arguments[role] = Argument(argument.kind, argument.value, role, argument.negative)
+            arguments[role] = replace(argument, name=role)
         for role, place in shape.roles.items():
             if role not in arguments and not (role == "spacing" and "count" in arguments):
                 arguments[role] = Argument("param", self._own(call, role, place), role)
@@ -206,15 +194,14 @@ class _Binder:
             name = self.task.position_parameter
         if name is None and role in self.task.by_name:
             name = role
-        if not name:
-            title = self.task.title
-            raise TemplateError(f"{call.name} needs a {role}, and {title} has no parameter for it")
+        title = self.task.title
+        name = name or fail(f"{call.name} needs a {role}, and {title} has no parameter for it")
         self.parameter(name)
         return name
 
 
 def _no_draw(_rng: Any) -> Value:
-    raise TemplateError("the size of a Grid is drawn as a whole")
+    return fail("the size of a Grid is drawn as a whole")
 
 
 def _among(names: Iterable[str]) -> str:

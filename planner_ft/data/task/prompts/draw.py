@@ -11,7 +11,7 @@ from planner_ft.data.task.context import Context
 from planner_ft.data.task.prompts.binding import Bound, Source
 from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size
 from planner_ft.data.task.steps import Entry, Plan
-from planner_ft.data.templates.grammar import Argument, Call, Part, Slot, base_of, choose
+from planner_ft.data.templates.grammar import Argument, Call, Chosen, Slot, base_of, is_small
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
@@ -25,9 +25,7 @@ RIGHT = (" to the right", " to starboard", " clockwise")
 
 
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
-    """The prompt with its values marked, the expected plan and the skills in it; None when the draw
-    came to nothing.
-    """
+    """The prompt with its values marked, its plan and skills; None for a draw without a plan."""
     drawing = Drawing(bound, context)
     text = joined(drawing.pieces(), small=drawing.small)
     try:
@@ -49,7 +47,7 @@ def twice(calls: list[Entry]) -> bool:
     )
 
 
-class Drawing:
+class Drawing(Chosen):
     """The values of one template or clause and what was chosen of the text."""
 
     def __init__(self, bound: Bound, context: Context) -> None:
@@ -65,23 +63,17 @@ class Drawing:
             for key, share in bound.often.items()
             if self.rng.random() < share or context.linked(bound.sources[key].place)
         )
-        self.parts: list[Part] = choose(bound.template.nodes, self.rng, [], given)
-        first = self.parts[0] if self.parts else ""
-        self.small = isinstance(first, str) and first[:1].islower()
-        slots = [part for part in self.parts if isinstance(part, Slot)]
-        self.labels = {slot.key for slot in slots if slot.sign == "?"}
-        self.chosen = {slot.key for slot in slots if not slot.sign}
+        super().__init__(bound.template.nodes, self.rng, given)
+        self.small = is_small(self.parts)
         self.plan = Plan(bound, self.book, self.labels, self._value)
-        for slot in slots:
+        for slot in self.slots:
             if not slot.sign and slot.key not in self.values:
                 self.values[slot.key] = self._draw(slot)
 
     # ------------------------------------------------------------ values
 
     def _task_values(self) -> None:
-        """Task parameters that the text refers to are there; positions are known where something is
-        calculated from them.
-        """
+        """Task parameters of the text are there; positions that are calculated with are known."""
         context, bound = self.context, self.bound
         for name in sorted(bound.params):
             context.require(name)
@@ -186,9 +178,7 @@ class Drawing:
         return pieces
 
     def _said(self, slot: Slot, place: int) -> str:
-        """The value's wording: bare between quotation marks, with the side where the text around it
-        does not tell.
-        """
+        """The value's wording: bare in quotation marks, with the side where the text has none."""
         value = self.values[slot.key]
         around = (self.parts[:place][-2:], self.parts[place + 1 : place + 4])
         before, after = ("".join(part for part in some if isinstance(part, str)) for some in around)
@@ -208,4 +198,4 @@ class Drawing:
         key = str(argument.value)
         if argument.kind == "param":
             return self.context.values[key].value
-        return self.values[key].value if key in self.chosen else None
+        return self.values[key].value if key in self.said else None

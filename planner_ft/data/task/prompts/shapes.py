@@ -1,11 +1,8 @@
-"""Steps that stand for a whole shape: what each needs, how that is drawn, and its waypoints or
-headings.
-"""
+"""Steps that stand for a whole shape: what each needs, its draws, its waypoints or headings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from random import Random
 from typing import Any
 
@@ -20,33 +17,33 @@ from planner_ft.data.numbers import (
     rotation,
 )
 from planner_ft.data.task.values import Draw, draw_bearing, draw_number, draw_point, draw_rotation
-from planner_ft.data.templates.grammar import TemplateError
+from planner_ft.data.templates.grammar import fail
 from planner_ft.facts import geometry as g
 
 BEARINGS = {name: degrees for degrees, name in COMPASS.items()}
 Values = Mapping[str, Any]
 
 
-@dataclass(frozen=True)
 class Shape:
     """`motion` of its steps; `roles`: what it needs, with the place that a task parameter fills
-    (see `links` of the phrase file); `options`: what may be said.
+    (see `links` of the phrase file), written "point:center width", the role and its name in the
+    place; `options`: what may be said; `expand`: its waypoints or headings.
     """
 
-    motion: str
-    roles: Mapping[str, str]
-    options: frozenset[str]
-    expand: Callable[[Values], list[Any]]
+    def __init__(
+        self,
+        motion: str,
+        pattern: str,
+        roles: str,
+        options: str,
+        expand: Callable[[Values], Sequence[Any]],
+    ) -> None:
+        pairs = (item.partition(":") for item in roles.split())
+        self.roles = {role: f"{pattern}.{name or role}" for role, _colon, name in pairs}
+        self.motion, self.options, self.expand = motion, frozenset(options.split()), expand
 
 
-def _shape(motion: str, pattern: str, roles: str, options: str, expand: Any) -> Shape:
-    """A shape whose roles are written "point:center width": the role, and its name in the place."""
-    pairs = (item.partition(":") for item in roles.split())
-    places = {role: f"{pattern}.{name or role}" for role, _colon, name in pairs}
-    return Shape(motion, places, frozenset(options.split()), expand)
-
-
-def _clockwise(values: Values, *, default: bool) -> bool:
+def _clockwise(values: Values, default: bool = False) -> bool:
     return bool(values["turn"] == "clockwise") if "turn" in values else default
 
 
@@ -59,26 +56,6 @@ def _grid(values: Values) -> list[g.Point]:
     return g.lawnmower(values["point"], width, along, spacing, start, axis)
 
 
-def _square(values: Values) -> list[g.Point]:
-    start, clockwise = values.get("start", "east"), _clockwise(values, default=False)
-    return g.survey_square(values["point"], values["radius"], start, clockwise=clockwise)
-
-
-def _ring(values: Values) -> list[g.Point]:
-    start, clockwise = BEARINGS[values.get("start", "east")], _clockwise(values, default=False)
-    count = int(values["count"])
-    return g.circle(values["point"], values["radius"], count, start, clockwise=clockwise)
-
-
-def _sectors(values: Values) -> list[float]:
-    first, clockwise = values.get("heading", 0), _clockwise(values, default=True)
-    return g.sector_headings(int(values["count"]), first, clockwise=clockwise)
-
-
-def _line(values: Values) -> list[g.Point]:
-    return g.straight_line(values["point"], values["heading"], values["length"])
-
-
 def _pass(values: Values) -> list[g.Point]:
     """Along a side of a structure, from the south or the west."""
     bearing = BEARINGS.get(values.get("side", ""), 45)
@@ -89,26 +66,42 @@ def _pass(values: Values) -> list[g.Point]:
     return g.straight_line(start, (bearing + 90) % 180, values["length"])
 
 
-def _offset(values: Values) -> list[g.Point]:
-    return [g.offset(values["point"], values["heading"], values["length"])]
-
-
-def _turns(values: Values) -> list[float]:
-    return [values["delta_yaw"]] * int(values["count"])
-
-
 SHAPES: Mapping[str, Shape] = {
-    "Grid": _shape(
+    "Grid": Shape(
         "goto", "lawnmower", "point:center width length spacing", "start axis count", _grid
     ),
-    "Square": _shape("goto", "square", "point:center radius", "start turn", _square),
-    "Ring": _shape("goto", "orbit", "point:center radius count", "start turn", _ring),
-    "Line": _shape("goto", "line", "point:start heading length", "", _line),
-    "Pass": _shape("goto", "pass", "point length distance", "side", _pass),
-    "Offset": _shape("goto", "GoToXY", "point:xy heading length", "", _offset),
-    "Return": _shape("goto", "", "", "", lambda values: [values["home"]]),
-    "Sectors": _shape("turn_to", "sectors", "count:sectors", "heading turn", _sectors),
-    "Turns": _shape("turn_by", "", "count delta_yaw", "", _turns),
+    "Square": Shape(
+        *("goto", "square", "point:center radius", "start turn"),
+        lambda v: g.survey_square(
+            v["point"], v["radius"], v.get("start", "east"), clockwise=_clockwise(v)
+        ),
+    ),
+    "Ring": Shape(
+        *("goto", "orbit", "point:center radius count", "start turn"),
+        lambda v: g.circle(
+            *(v["point"], v["radius"], int(v["count"]), BEARINGS[v.get("start", "east")]),
+            clockwise=_clockwise(v),
+        ),
+    ),
+    "Line": Shape(
+        *("goto", "line", "point:start heading length", ""),
+        lambda v: g.straight_line(v["point"], v["heading"], v["length"]),
+    ),
+    "Pass": Shape("goto", "pass", "point length distance", "side", _pass),
+    "Offset": Shape(
+        *("goto", "GoToXY", "point:xy heading length", ""),
+        lambda v: [g.offset(v["point"], v["heading"], v["length"])],
+    ),
+    "Return": Shape("goto", "", "", "", lambda v: [v["home"]]),
+    "Sectors": Shape(
+        *("turn_to", "sectors", "count:sectors", "heading turn"),
+        lambda v: g.sector_headings(
+            int(v["count"]), v.get("heading", 0), clockwise=_clockwise(v, True)
+        ),
+    ),
+    "Turns": Shape(
+        "turn_by", "", "count delta_yaw", "", lambda v: [v["delta_yaw"]] * int(v["count"])
+    ),
 }
 
 
@@ -168,17 +161,13 @@ DRAWS: Mapping[tuple[str, str], Draw] = {
 
 def value_draw(shape: str, role: str, base: str) -> Draw:
     """How the value of a slot in a shape is drawn. Raises TemplateError for one that is not."""
-    by_role = (("", base),) if base == "direction" else ((shape, role), ("", role))
-    for key in ((shape, base), *by_role):
-        if key in DRAWS:
-            return DRAWS[key]
-    raise TemplateError(f"{shape} cannot draw a {role}")
+    by_role = ((shape, role), ("", role)) if base != "direction" else (("", base),)
+    keys = (key for key in ((shape, base), *by_role) if key in DRAWS)
+    return DRAWS[next(keys, None) or fail(f"{shape} cannot draw a {role}")]
 
 
 def grid_size(rng: Random, *, free: bool) -> dict[str, float]:
-    """Width, length, spacing and count of lanes, which fit; `free`: the length need not be a
-    multiple of the spacing.
-    """
+    """A grid's sizes and lanes, which fit; `free`: its length is no multiple of the spacing."""
     spacing = pick((2, 2.5, 3, 4, 5, 5, 6, 7.5, 8, 10, 10, 12, 15, 20, 25), rng)
     width = g.tidy(spacing * (pick((2, 2, 3, 3, 3, 4, 4, 5, 5, 6, 7, 8, 9, 11), rng) - 1))
     along = g.tidy(spacing * rng.randrange(1, 11))

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.steprules import step_problems
+from planner_ft.data.stated import step_problems
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()

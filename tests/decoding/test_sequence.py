@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import pytest
@@ -11,8 +12,8 @@ from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.generate import Generation, Method, Query, generate
 from planner_ft.decoding.lookup import Lookup
-from planner_ft.decoding.odds import LIKELIEST, odds, score
 from planner_ft.decoding.passes import Decoder
+from planner_ft.decoding.sequence import LIKELIEST, scores
 
 END = 2
 LIMITS = Limits((END,), 0, 24)
@@ -54,16 +55,15 @@ def test_a_score_needs_no_pass(decoder: Decoder, monkeypatch: pytest.MonkeyPatch
         return [answer.forward_passes for answer in answers]
 
     with_scores = passes()
-    monkeypatch.setattr(generate_module, "_rate", lambda states, of_rows: None)
+    monkeypatch.setattr(generate_module, "scores", lambda ids, logits: itertools.repeat(None))
     assert passes() == with_scores
     assert generate(decoder, QUERIES, LIMITS)[0].scores[0] is None
 
 
 def test_what_is_forced_is_not_certain() -> None:
     logits = torch.tensor([0.0, 4.0, 1.0, -torch.inf, 2.0, -3.0])
-    (place,) = odds(logits[None])
     whole = torch.log_softmax(logits, -1)
-    found = score(5, place, logits)
+    found, forced = scores([5, 3], logits.expand(2, -1))
     assert found.logprob == pytest.approx(float(whole[5]), abs=1e-5)
     assert [token for token, _logprob in found.others] == [1, 4, 2]
-    assert score(3, place, logits).logprob == -float("inf")
+    assert forced.logprob == -float("inf")
