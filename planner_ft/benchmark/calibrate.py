@@ -54,10 +54,12 @@ def calibrate(
     """
     settings = PlanSettings(**named)
     vocabulary = load_vocabulary(settings.vocabulary)
-    agent = choose_agents(settings, vocabulary)[level]
-    held_for = agent.held_for(vocabulary)
     if not data:
         raise PlannerError("name at least one file of validation data")
+    for path in data:
+        load_bench_data(path, level, vocabulary, None)  # what is wrong with it is said by its name
+    agent = choose_agents(settings, vocabulary)[level]
+    held_for = agent.held_for(vocabulary)
     texts = [files.read_text(path).rstrip() for path in data]
     digest = files.sha256_text(files.compact_json([held_for, *map(files.sha256_file, data)]))[:12]
     folder = out / f"{agent.candidate.slug}-{level}-{digest}"

@@ -47,7 +47,8 @@ Found = dict[str, Any]
 
 def describe(candidate: Candidate) -> Found:
     """One row of `plannerft candidates` as JSON values: estimates of `memory` in GiB and `times` in
-    seconds, None if unknown; where it is not `here`, complete, `problem` or `get` says the way out, and `command` downloads it.
+    seconds, None if unknown; where it is not `here`, complete, `problem` or `get` says the way out,
+    and `command` downloads it.
     """
     missing, problem = candidate.folder is None, None
     try:

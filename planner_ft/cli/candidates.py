@@ -13,8 +13,9 @@ if TYPE_CHECKING:
 
 ESTIMATES = (
     "Estimates, not measurements. Memory: 4-bit weights, batch size 1; to train an adapter on 1024"
-    " tokens, to run it on 2048 tokens. * with gradient checkpointing. Time on the study's RTX 4070:"
-    " the published trainings (minutes for missions, hours for tasks), a mission's answer in seconds."
+    " tokens, to run it on 2048 tokens. * with gradient checkpointing. Time on the study's RTX"
+    " 4070: the published trainings (minutes for missions, hours for tasks), a mission's answer in"
+    " seconds."
 )
 PAGE = "https://huggingface.co/REPOSITORY"
 GATED = f" (gated ones: first accept the licence at {PAGE} and run `hf auth login`)"

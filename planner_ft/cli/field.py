@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.cli.options import typed
 from planner_ft.cli.progress import interruptible
+from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
@@ -45,7 +46,7 @@ def run_whole(
         for one in _names(named.get("configurations")) or [""]
     ]
     folder, limit = out or Path("eval/runs") / bench.kind, named.get("limit")
-    with interruptible() as progress:
+    with alone(folder, "--out", "a benchmark"), interruptible() as progress:
         how: dict[str, Any] = {"limit": limit, "overwrite": overwrite}
         table = run_cases(bench, files, folder, vocabulary, agents, _Plan, progress, **how)
     terminal().print(terminal_table(table))

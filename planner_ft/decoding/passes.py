@@ -86,7 +86,7 @@ class _ModelPasses:
         self.cache.batch_select_indices(index)
 
     def _begin_together(self, feeds: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
-        """Compute the common beginning of all prompts once; what is left of each, a token at least."""
+        """Compute all prompts' common beginning once; what is left of each, a token at least."""
         from transformers.cache_utils import DynamicLayer
 
         columns = zip(*feeds, strict=False)

@@ -43,8 +43,8 @@ class Fence:
 
 @dataclass(frozen=True)
 class Brief:
-    """A plan in short. `end` is where the vehicle ends, in words; `structures` and `fences` are what
-    it keeps off.
+    """A plan in short. `end` is where the vehicle ends, in words; `structures` and `fences` are
+    what it keeps off.
     """
 
     rows: tuple[Row, ...]

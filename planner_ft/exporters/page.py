@@ -1,4 +1,4 @@
-"""Export from the page of a review: the formats that there are, and the files of an approved plan."""
+"""Export from the page of a review: the formats there are, and the files of an approved plan."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def prepare(folder: Path, repo: str, dataset: str | None = None) -> Upload:
     """What `folder`, written by train or gen-data, uploads into `repo`; needs no network.
 
     `dataset` is the repository of an adapter's training data, which its card names. Raises
-    PlannerError for other folders, stand-ins, files that changed since, and a card without metadata.
+    PlannerError for other folders, stand-ins, files that changed since, and cards without metadata.
     """
     for name in filter(None, (repo, dataset)):
         _check_name(name)

@@ -98,7 +98,7 @@ class LearntGo(Follow):
         return np.where(turning[:, None], made, learnt)
 
     def _goal(self, runs: Runs) -> tuple[Floats, Bools]:
-        """The next points of the ways with the bearings of their legs (n, 3); which are the last."""
+        """The ways' next points with the bearings of their legs (n, 3); which are the last."""
         paths, legs = self.paths[runs], self.leg[runs]
         index = np.arange(len(runs))
         start, end = paths[index, legs], paths[index, legs + 1]

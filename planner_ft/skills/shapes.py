@@ -98,7 +98,7 @@ DOCKS: dict[str, shapely.Polygon] = {
     "L dock": shapely.box(-4, -4, 4, 4).difference(shapely.box(-1, -1, 9, 9)),
     "T dock": shapely.box(-5, 1, 5, 4).union(shapely.box(-1.5, -4, 1.5, 1)),
 }
-"""Structures of the published second simulator; how broad its arms are, and the buoy, is assumed."""
+"""Structures of the published second simulator; its arms' breadth and the buoy are assumed."""
 
 
 def draw_outline(

@@ -58,6 +58,10 @@ class SkillTraining:
         if not published and (self.sampling != "uniform" or self.without):
             which = "--sampling" if self.sampling != "uniform" else "--without"
             raise PlannerError(f"{which}: is of `skill train survey --recipe published` alone")
+        if self.resume and self.overwrite:
+            raise PlannerError("--overwrite and --resume exclude each other")
+        if self.goto and self.skill != "survey":
+            raise PlannerError("--goto: is of `skill train survey` alone; leave it out")
 
     def settings(self) -> Any:
         """The settings of the recipe. Raises PlannerError."""

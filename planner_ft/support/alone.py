@@ -66,8 +66,12 @@ def staging(folder: Path) -> Iterator[Path]:
 
 
 def _remove_staged(folder: Path) -> None:
-    """Only for who is alone in the folder: nobody alive is staging it."""
-    staged = re.compile(rf"\.{re.escape(folder.name)}\.[0-9]+\.[0-9a-f]{{6}}\.tmp")
+    """Only for who is alone in the folder: nobody alive is staging it, or writing a file in it."""
+    ending = r"\.[0-9]+\.[0-9a-f]{6}\.tmp"
+    staged = re.compile(rf"\.{re.escape(folder.name)}{ending}")
     for path in folder.parent.iterdir():
         if staged.fullmatch(path.name):
             shutil.rmtree(path, ignore_errors=True)
+    for path in (*folder.glob(".*.tmp"), *folder.glob("*/.*.tmp")):
+        if path.is_file() and re.fullmatch(rf"\..+{ending}", path.name):
+            path.unlink()

@@ -167,7 +167,7 @@ def validation_loss(
 
 
 def add_gradients(model: Any, ranks: Ranks) -> None:
-    """Put the sum over all processes in the place of every gradient; those without a batch add 0."""
+    """Put the sum over all processes in place of every gradient; those without a batch add 0."""
     weights = list(adapter_parameters(model).values())
     own = [torch.zeros_like(one) if one.grad is None else one.grad for one in weights]
     summed = ranks.add_up(torch.cat([one.flatten() for one in own]))

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import json
 import os
+import random
+import shutil
 import signal
 import time
 from collections.abc import Callable
@@ -28,6 +30,7 @@ from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.files import compact_json, read_json, read_jsonl, write_json, write_jsonl
 from planner_ft.training.request import build_request
 from planner_ft.vocabulary import load_vocabulary
+from tests.kills import changes
 
 CANDIDATE = "Llama-3.2-1B-Instruct"
 DRONE = load_vocabulary("inspection_drone")
@@ -157,6 +160,25 @@ def test_after_ctrl_c_in_any_phase_the_rest_is_run(
     # The base is one step, every other unit two.
     assert len(runs.started) - before == 9 - max(0, 2 * finished - 1)
     assert [point.size for point in write_curve(curve)] == [0, 2, 4]
+
+
+def test_a_curve_that_is_killed_at_any_of_its_files_is_gone_on_with(
+    plan: Callable[..., Curve], runs: Runs, tmp_path: Path
+) -> None:
+    def work() -> None:
+        curve = plan((0, 2), seeds=1)
+        run(curve, resume=True)
+        write_curve(curve)
+
+    out = tmp_path / "curve"
+    total = changes(work, out)
+    assert total
+    whole = (out / "table.md").read_text()
+    shutil.rmtree(out)
+    for last in sorted(random.Random(0).sample(range(total), 3)):
+        changes(work, out, last)
+    assert changes(work, out) is not None
+    assert (out / "table.md").read_text() == whole
 
 
 def test_sizes_and_seeds_are_added_to_a_curve(plan: Callable[..., Curve], runs: Runs) -> None:

@@ -159,6 +159,11 @@ def test_waypoints_that_follow_from_a_grid_are_given_and_others_are_not() -> Non
     assert [given.value for given in found.ungrounded] == [[5, 25]]
 
 
+def test_what_stands_beside_a_pair_of_coordinates_is_judged_too() -> None:
+    found = judged("task", GRID, steps(("GoToXY", {"x": 0, "y": 15, "mark": "owl"})))
+    assert [given.value for given in found.ungrounded] == ["owl"]
+
+
 def test_waypoints_of_shapes_that_are_not_derived_are_not_judged() -> None:
     assert judged("task", {**GRID, "prompt": "Run a zigzag."}, steps(goto(7, 7))).judged == 0
 

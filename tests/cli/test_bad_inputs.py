@@ -1,4 +1,4 @@
-"""A hundred bad inputs: exit status 2, one sentence without a traceback, and nothing half-written."""
+"""Bad inputs of every command: exit status 2, one sentence without a traceback, and nothing half-written."""
 
 from __future__ import annotations
 
@@ -183,6 +183,103 @@ export --candidate embedded --out LONG
 bench --level mission --candidates embedded --out LONG
 bench --level mission --candidates embedded --out NOTHING
 plan x --locate-file NOTHING
+simulate
+simulate /nowhere
+simulate /nowhere --runs 0
+simulate /nowhere --runs x
+simulate /nowhere --runs 1000000 --out OUT
+simulate /nowhere --seed -1
+simulate /nowhere --simulator gazebo
+simulate /nowhere --tolerance 0
+simulate /nowhere --tolerance nan
+simulate /nowhere --mcap -1
+simulate /nowhere --mcap 21
+simulate /nowhere --start here
+simulate /nowhere --start nan,0
+simulate /nowhere --fault foo
+simulate /nowhere --locate foo
+simulate /nowhere --origin 91,0
+simulate /nowhere --vocabulary nobody
+simulate BINARY --out OUT
+simulate EMPTY --out OUT
+simulate DEEP --out OUT
+simulate LIST --out OUT
+simulate FOLDER --out OUT
+simulate LONG --out OUT
+simulate NOTHING
+learning-curve --out OUT
+learning-curve --level boat --candidate embedded --out OUT
+learning-curve --level mission --candidate nobody --out OUT
+learning-curve --level mission --candidate embedded --sizes x --out OUT
+learning-curve --level mission --candidate embedded --sizes -1 --out OUT
+learning-curve --level mission --candidate embedded --sizes 1000000 --out OUT
+learning-curve --level mission --candidate embedded --seeds 0 --out OUT
+learning-curve --level mission --candidate embedded --strength hard --out OUT
+learning-curve --level mission --candidate embedded --limit 0 --out OUT
+learning-curve --level mission --candidate embedded --rank 0 --out OUT
+learning-curve --level mission --candidate embedded --learning-rate nan --out OUT
+learning-curve --level mission --candidate embedded --vocabulary nobody --out OUT
+learning-curve --level mission --candidate embedded --data /nowhere --out OUT
+learning-curve --level mission --candidate embedded --data BINARY --out OUT
+learning-curve --level mission --candidate embedded --data EMPTY --out OUT
+learning-curve --level mission --candidate embedded --data-dir FOLDER --out OUT
+learning-curve --level mission --candidate embedded --resume --overwrite --out OUT
+learning-curve --level mission --candidate embedded --out EMPTY/x
+learning-curve --level mission --candidate embedded --out LONG
+learning-curve --level mission --candidate embedded --out NOTHING
+calibrate
+calibrate /nowhere --out OUT
+calibrate BINARY --out OUT
+calibrate EMPTY --out OUT
+calibrate LIST --out OUT
+calibrate DEEP --out OUT
+calibrate FOLDER --out OUT
+calibrate README.md --out OUT
+calibrate README.md --level boat --out OUT
+calibrate README.md --candidate nobody --out OUT
+calibrate README.md --configuration foo --out OUT
+calibrate README.md --adapter /nowhere --out OUT
+calibrate README.md --vocabulary nobody --out OUT
+calibrate README.md --device tpu --out OUT
+calibrate README.md --quantization int8 --out OUT
+calibrate README.md --out EMPTY/x
+calibrate README.md --out LONG
+vehicle
+vehicle new
+vehicle paint my_rover
+vehicle new usv --out OUT
+vehicle new my_rover --out FOLDER
+vehicle new ../rover --out OUT
+vehicle check nobody
+vehicle check FOLDER
+bench --field --level mission --candidates embedded --out OUT
+bench --field /nowhere --candidates embedded --out OUT
+bench --field --candidates embedded --resume --out OUT
+bench --level both --candidates embedded --data BINARY --out OUT
+bench --level both --candidates embedded --data LIST --out OUT
+bench --level both --candidates embedded --adapter x --out OUT
+export DEEP --format nobody
+export --candidate embedded --merge --format qgc --out OUT
+plan x --temperature 1
+validate
+validate NOTHING
+skill
+skill paint hold
+skill train nobody --out OUT
+skill train hold --seed -1 --out OUT
+skill train hold --iterations 0 --out OUT
+skill train hold --environments 0 --out OUT
+skill train hold --recipe nobody --out OUT
+skill train hold --goto /nowhere --out OUT
+skill train hold --resume --overwrite --out OUT
+skill train hold --out EMPTY/x
+skill bench nobody --out OUT
+skill bench hold --episodes 0 --out OUT
+skill bench hold --policy /nowhere --out OUT
+skill bench hold --policy FOLDER --out OUT
+simulate --suite /nowhere --out OUT
+simulate --suite BINARY --out OUT
+simulate --suite LIST --out OUT
 """
 WORDS = {"LONG": "x" * 300, "NOTHING": ""}
 """A name that no file can have, and what an unset variable of a shell leaves."""

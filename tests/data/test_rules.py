@@ -125,6 +125,12 @@ WRONG = [
     ("Go to [4, 5].", plan(go(5, 4)), "coordinates [5, 4] are not in the command"),
     ("Inspect the green barrel.", plan(find("the green barrel"), SURVEY), "begins with an article"),
     ("Inspect the green barrel.", plan(find("red barrel"), SURVEY), "'red' of 'red barrel'"),
+    ("Inspect the green barrel.", plan(find("green barrel."), SURVEY), "blank or punctuation"),
+    (
+        "Buoy at [4, 5]: circle it.",
+        plan(find("buoy"), go(-99, -99), ("PerformOrbit", {"center": HERE})),
+        "gives coordinates for 'buoy'",
+    ),
     (
         "Sound 80 by 50 around [5, 5].",
         plan(("BathymetryGridSurvey", {"center": [5, 5], "width": 50, "length": 80})),

@@ -60,7 +60,7 @@ def test_values_of_a_mission(prompt: str, value: Any, parameter: Parameter, expe
         ("Survey it.", {"target_position": [10, 10], "radius": 5}, [15, 15], [], "derived"),
         ("Six points round it.", {"center": [0, 10], "radius": 10}, [8.66, 15], [], "derived"),
         ("Six points round it.", {"center": [0, 10], "radius": 10}, [8, 16], [], "nobody"),
-        ("[10, 0] to [50, 0] in five points.", {}, [20, 0], [], "derived"),
+        ("[11, 0] to [51, 0] in five points.", {}, [21, 0], [], "derived"),
     ],
 )
 def test_waypoints(

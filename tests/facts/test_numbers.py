@@ -56,6 +56,7 @@ def states(text: str, value: float, unit: str | None) -> str:
         ("10 mph", [(4.4704, "m/s")]),
         ("2 m s-1", [(2, "m/s")]),
         ("forty five, 20 percent", [(45, None), (20, "%")]),
+        ("20 per cent of 40 m", [(20, "%"), (40, "m")]),
         ("face 297 - record the radar", [(297, None)]),
         ("a minute and three quarters", [(105, "s")]),
         ("one and three quarter hours", [(6300, "s")]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -95,6 +96,13 @@ def test_an_answer_that_is_not_valid_is_not_taken(plan: Path, usv: Vocabulary) -
         match=r"SearchAndDetect: the Task Agent's answer is not valid \(no such skill\)",
     ):
         desk.edit("skills 1")
+
+
+def test_what_the_vehicle_adds_to_new_skills_is_marked(plan: Path, usv: Vocabulary) -> None:
+    mark = {"step": 0, "role": "navigation", "name": "GoToXY", "kind": "vehicle"}
+    desk = Desk(plan, log_beside(plan), usv, lambda task: replace(circling(task), added=(mark,)))
+    desk.edit("skills 1")
+    assert read_document(plan)["tasks"][0]["added"] == [mark]
 
 
 def test_without_a_model_the_rest_of_the_review_works(

@@ -10,8 +10,10 @@ from pathlib import Path
 import pytest
 
 from planner_ft.cli import main
+from planner_ft.document import write_document
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
+from tests.documents import document
 
 
 def test_a_second_one_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
@@ -46,6 +48,13 @@ def test_files_of_the_run_stay(tmp_path: Path) -> None:
         "export --candidate embedded --out OUT --overwrite",
         "compare eval --out OUT --overwrite",
         "report eval --out OUT --overwrite",
+        "bench --field --out OUT --overwrite",
+        "bench --level both --candidates embedded --out OUT --overwrite",
+        "score --level mission --predictions README.md --out OUT --overwrite",
+        "train --level mission --candidate embedded --output OUT --overwrite",
+        "learning-curve --level mission --candidate embedded --out OUT --overwrite",
+        "calibrate data/mission/validation.jsonl --out OUT",
+        "simulate PLAN --draft --out OUT --overwrite",
     ],
 )
 def test_every_long_command_leaves_a_running_ones_files_alone(
@@ -59,7 +68,9 @@ def test_every_long_command_leaves_a_running_ones_files_alone(
     kinds = {"manifest.json": json.dumps({"kind": "export"}), "results.json": "{}"}
     for name, content in kinds.items():
         (out / name).write_text(content)
-    words = command.replace("OUT", str(out)).split()
+    plan = tmp_path / "plan.json"
+    write_document(plan, document([]))
+    words = command.replace("OUT", str(out)).replace("PLAN", str(plan)).split()
     monkeypatch.setattr(sys, "argv", ["plannerft", *words])
     with alone(out, "--out", "something"), pytest.raises(SystemExit) as stop:
         main()
@@ -88,6 +99,24 @@ def test_the_next_one_removes_what_a_killed_one_was_staging(tmp_path: Path) -> N
         kept = {path.name for path in tmp_path.glob(".*.tmp")} - {staged.name}
     assert sorted(".".join(name.split(".")[:3]) for name in kept) == [".out.2", ".out.notes"]
     assert not staged.exists()
+
+
+def test_the_next_one_removes_files_that_a_killed_one_was_writing(tmp_path: Path) -> None:
+    """Also of a folder in the folder; a file of the user's that ends alike stays."""
+    script = (
+        "import os, sys; from planner_ft.support.files import atomic_writer\n"
+        "held = [atomic_writer(path) for path in sys.argv[1:]]\n"
+        "[one.__enter__() for one in held]\n"
+        "os.kill(os.getpid(), 9)"
+    )
+    out = tmp_path / "out"
+    (out / "figures").mkdir(parents=True)
+    (out / ".my.notes.tmp").write_text("")
+    names = [str(out / "table.md"), str(out / "figures" / "a.svg")]
+    subprocess.run([sys.executable, "-c", script, *names], check=False)
+    assert len(list(out.rglob("*.tmp"))) == 3
+    with alone(out, "--out", "x"):
+        assert [path.name for path in out.rglob("*.tmp")] == [".my.notes.tmp"]
 
 
 def test_a_link_to_a_folder_is_that_folder(tmp_path: Path) -> None:

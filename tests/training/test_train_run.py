@@ -5,8 +5,8 @@ go wrong on the way.
 from __future__ import annotations
 
 import json
+import multiprocessing
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -190,21 +190,21 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
     ask, quiet, data, tmp_path, reference, step_losses, short
 ):
     output = tmp_path / "killed"
-    # It stops before step 11: the kill meets the run between the checkpoint after step 8 and the
-    # end.
-    slow = (
-        "import time, planner_ft.training.loop as l; s = l._step; l._step = lambda run, *a:"
-        " (run.state.step == 10 and time.sleep(1e6), s(run, *a));"
-        " from planner_ft.cli import main; main()"
-    )
-    arguments = ["train", *COMMAND, "--data-dir", str(data), "--output", str(output)]
-    process = subprocess.Popen(
-        [sys.executable, "-c", slow, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-    )
+    first, step = ask(**short, output=str(output)), loop._step
+
+    def slow() -> None:
+        # It stops before step 11: the kill meets the run between the checkpoint after step 8 and
+        # the end.
+        torch.set_num_threads(1)
+        loop._step = lambda run, *a: (run.state.step == 10 and signal.pause(), step(run, *a))
+        train(first, quiet)
+
+    process = multiprocessing.get_context("fork").Process(target=slow)
+    process.start()
     resumed = ask(**short, output=str(output), resume=True)
     deadline = time.monotonic() + 600
     while (
-        process.poll() is None
+        process.is_alive()
         and time.monotonic() < deadline
         and not ((output / "train_log.jsonl").exists() and len(step_losses(output)) >= 10)
     ):
@@ -212,8 +212,8 @@ def test_kill_9_loses_only_what_came_after_the_last_checkpoint(
     with pytest.raises(PlannerError, match="a training runs there; wait for its end"):
         train(resumed, quiet)
     process.kill()
-    _, errors = process.communicate()
-    assert process.returncode == -signal.SIGKILL, errors.decode()
+    process.join()
+    assert process.exitcode == -signal.SIGKILL
     assert [path.name for path in checkpoint.checkpoints(output)] == ["step-00000008"]
     (output / "checkpoints" / ".step-00000099.1.tmp").mkdir()
     with open(output / "train_log.jsonl", "a") as log:

@@ -48,7 +48,7 @@ class MissionScript(Script):
         return ahead._titles(), ahead
 
     def _titles(self) -> str:
-        """The titles that may follow; with their tasks where one can be the beginning of another."""
+        """The titles that may follow; with their tasks where one can be another's beginning."""
         known = self.vocabulary.tasks
         # A vocabulary can be such that nothing fits; the schema alone holds then.
         offered = [

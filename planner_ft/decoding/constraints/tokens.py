@@ -173,7 +173,7 @@ def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = No
 
 
 def _definition(tokenizer: Any) -> str:
-    """The tokenizer.json, without padding and truncation. Raises ValueError for a slow tokenizer."""
+    """The tokenizer.json, without padding and truncation. Raises ValueError for slow tokenizers."""
     if not hasattr(tokenizer, "backend_tokenizer"):
         raise ValueError("only fast tokenizers are supported")
     backend = copy.copy(tokenizer.backend_tokenizer)

@@ -145,7 +145,7 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
 
 
 def _own_lanes(source: Input, places: Sequence[Point]) -> Iterator[Path]:
-    """The lanes of a task's own area; none where a bare number may be of lanes: "the first three"."""
+    """Lanes of a task's own area; none where a bare number may be of lanes: "the first three"."""
     assert source.task is not None
     names = (source.task.position_parameter, *SIZES)
     middle, width, length, spacing = (source.parameters.get(str(name)) for name in names)
@@ -167,7 +167,7 @@ def _lanes(middle: Point, width: float, length: float, spacing: float) -> Iterat
 
 
 def _rings(ground: Ground) -> Iterator[Path]:
-    """Squares, or their corners or mid-sides, and points evenly round a circle; each also closed."""
+    """Squares, or their corners or mid-sides, and points evenly round circles; each also closed."""
     ways, counts = (False, True), [count for count in ground.counts if count >= 3]
     for centre, radius in itertools.product(ground.places, ground.lengths):
         rings = []

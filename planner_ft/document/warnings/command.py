@@ -67,7 +67,11 @@ def other_language(command: str) -> str | None:
 
 
 def _withdrawn(ask: Ask, clauses: Sequence[Clause], spoken: Language) -> str | None:
-    """The words that rule a task out, where nothing behind them asks for it again."""
+    """The words that rule a task out, where nothing behind them asks for it again. An ask without
+    nouns is of several things: what rules one of them out leaves the others.
+    """
+    if ask.named.pattern == ask.said.pattern:
+        return None
     last = None
     for clause in (one for one in clauses if not one.corrected):
         for match in ask.named.finditer(clause.text):
@@ -134,8 +138,8 @@ def _is_noun(text: str, start: int, spoken: Language) -> bool:
 
 
 def _instruction_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and ruled
-    out.
+    """Instructions beyond the plan's tasks that none of them speaks of, and home asked for and
+    ruled out.
     """
     text, spoken = without_geographic(frame_of(document).spoken), language(vocabulary)
     clauses, tasks = read_clauses(text, vocabulary), document["tasks"]

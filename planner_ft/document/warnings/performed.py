@@ -1,5 +1,5 @@
-"""Whether the steps of a task perform it: a grid covers its area, a pass has its length, a line ends
-where its course leads, a square keeps its stand-off, a panorama looks in all its directions.
+"""Whether the steps of a task perform it: a grid covers its area, a pass has its length, a line
+ends where its course leads, a square keeps its stand-off, a panorama looks in all its directions.
 """
 
 from __future__ import annotations

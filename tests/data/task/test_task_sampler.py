@@ -1,5 +1,6 @@
 """What the task sampler writes."""
 
+import functools
 import itertools
 import json
 import os
@@ -141,16 +142,22 @@ def test_a_definition_without_phrases_falls_back_on_names(tmp_path):
     assert any("run fly to xy with position [" in record["prompt"].lower() for record in records)
 
 
-def label(prompt_part, seed=5, count=20_000):
+@functools.cache
+def composed():
+    """Records that are no template's, drawn as they are asked for and kept."""
+    records = sample_tasks(USV, 5, 20_000, "train")
+    return [], (one for one in records if not one["family"].startswith("template/"))
+
+
+def label(prompt_part):
     """The first composed record whose prompt has the text, so that the label can be checked against
     the words; templates may mean something else by them.
     """
-    composed = (
-        record
-        for record in sample_tasks(USV, seed, count, "train")
-        if not record["family"].startswith("template/")
-    )
-    return next(record for record in composed if re.search(prompt_part, record["prompt"]))
+    kept, more = composed()
+    for record in itertools.chain(kept, (kept.append(one) or one for one in more)):
+        if re.search(prompt_part, record["prompt"]):
+            return record
+    raise AssertionError(prompt_part)
 
 
 def navigation(record):
