@@ -214,7 +214,8 @@ def encode_shard(
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
         at = np.array(prompts, dtype=np.int32)
-        np.savez(stream_, ids=np.concatenate(ids), lengths=lengths, prompts=at, **arrays(packs))
+        held: dict[str, Any] = {"ids": np.concatenate(ids), "lengths": lengths, "prompts": at}
+        np.savez(stream_, **held, **arrays(packs))
     samples, tokens = len(ids) - drilled, int(lengths.sum())
     tokens += sum(len(part) for pack in packs for part, _prompt in pack)
     counts = {"samples": samples, "tokens": tokens, "left_out": left_out, "drills": drilled}

@@ -19,9 +19,9 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from planner_ft.pretraining.corpus import IGNORE, Rows, batched, load_shard
+from planner_ft.pretraining.corpus import Rows, batched, load_shard
 from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
-from planner_ft.pretraining.packs import Row, rows_of_packs
+from planner_ft.pretraining.packs import IGNORE, Row, rows_of_packs
 from planner_ft.pretraining.weights import rounded
 
 

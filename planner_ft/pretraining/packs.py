@@ -100,7 +100,7 @@ def packed(
     return pack
 
 
-def arrays(packs: Sequence[Pack]) -> dict[str, NDArray[Any]]:
+def arrays(packs: Sequence[Pack]) -> dict[str, Any]:
     """Packs as arrays for a shard."""
     parts = [part for pack in packs for part in pack]
     return {
@@ -150,5 +150,5 @@ def row_of(packs: Sequence[Pack]) -> Row:
             labels.append(target)
             positions.append(np.arange(len(tokens)) + (shown[1] - shown[0]))
             at += len(tokens)
-    joined = [np.concatenate(one)[None] for one in (ids, labels, positions)]
-    return Row(*joined, np.array(parts, dtype=np.int64))
+    found, wanted, places = (np.concatenate(one)[None] for one in (ids, labels, positions))
+    return Row(found, wanted, places, np.array(parts, dtype=np.int64))

@@ -8,7 +8,7 @@ task is for stands in its description, which stays.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
@@ -61,7 +61,7 @@ class View:
     vocabulary: Vocabulary
     titles: dict[str, str]
     keys: dict[str, str]
-    places: dict[tuple[float, ...], tuple[float, float]]
+    places: Mapping[tuple[float, float], tuple[float, float]]
 
     def record(self, record: dict[str, Any]) -> dict[str, Any]:
         """A mission record with the view's names and places."""
@@ -82,7 +82,7 @@ class View:
         return {"prompt": record["prompt"], "expected": {"tasks": tasks, **texts}}
 
     def _placed(self, value: Any) -> Any:
-        place = self.places.get(tuple(value)) if _is_place(value) else None
+        place = self.places.get((value[0], value[1])) if _is_place(value) else None
         return list(place) if place else value
 
     def _said(self, text: str) -> str:
@@ -107,16 +107,17 @@ def view(
         rng.shuffle(tasks)
     titles = _names([(task.title, task.description) for task in tasks], rng)
     keys = _names([(one.name, one.description) for task in tasks for one in task.parameters], rng)
-    places = {vocabulary.home: rng.choice(HOMES), vocabulary.unresolved: rng.choice(UNRESOLVED)}
+    home, unresolved = rng.choice(HOMES), rng.choice(UNRESOLVED)
     renamed = replace(
         vocabulary,
         title=rng.choice(others).title,
         frame=rng.choice(others).frame,
-        home=places[vocabulary.home],
-        unresolved=places[vocabulary.unresolved],
+        home=home,
+        unresolved=unresolved,
         tasks=tuple(_renamed(task, titles, keys) for task in tasks),
     )
-    return View(renamed, titles, keys, places)
+    places = {vocabulary.home: home, vocabulary.unresolved: unresolved}
+    return View(renamed, titles, keys, dict(places))
 
 
 def _renamed(task: Task, titles: dict[str, str], keys: dict[str, str]) -> Task:
