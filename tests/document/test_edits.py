@@ -229,7 +229,7 @@ def test_what_was_altered_outside_is_adopted_or_not_edited(plan: PlanDocument) -
         apply(by_hand, {"kind": "remove", "task": "t1"}, USV)
     adopted = adopt(by_hand, USV, "Ada")
     assert not altered(adopted) and [change.text for change in differences(adopted)] == [
-        "task 4, KeepStation: duration 60 -> 600"
+        "task 4, KeepStation: duration 60 -> 600, changed by Ada"
     ]
     assert adopted["edits"][-1]["by"] == "Ada" and undo(adopted, USV) == plan
     by_id(by_hand, "t4")["parameters"]["duration"] = "long"
