@@ -1,4 +1,5 @@
 # make demo   a new vehicle from data to plan: adapter, benchmark, one table, one figure, three sentences (build/demo)
+# make demo-readme   the same, and its table goes into README.md
 # make test   lint, types, tests and the CI gate
 # make peers-test   our benchmark inside lm-evaluation-harness, and TRL on our data, in an environment of its own
 #
@@ -13,7 +14,7 @@ INSTALLED := $(VENV)/.planner_ft-installed
 export HF_HUB_OFFLINE ?= 1
 export TOKENIZERS_PARALLELISM ?= false
 
-.PHONY: demo test install lint types gate peers-test server-test calibrate clean
+.PHONY: demo demo-readme test install lint types gate peers-test server-test calibrate clean
 
 install: $(INSTALLED)
 
@@ -38,6 +39,10 @@ demo: install
 	    --vocabulary inspection_drone --mission-adapter build/demo/adapter --mission-only
 	$(BIN)/plannerft plan "Find the rusty mooring buoy, film its shackle for two minutes, then come home." --locate "mooring buoy=120,-35"
 	$(BIN)/python scripts/demo.py build/demo
+
+# The same, and the table and sentences go into README.md, between its two marks.
+demo-readme: demo
+	$(BIN)/python scripts/demo.py build/demo --into README.md
 
 test: lint types
 	$(BIN)/python -m pytest -n 2

@@ -20,24 +20,27 @@ SHAPE: dict[str, Any] = {
 
 
 def make_real_shape(folder: Path, seed: int = 0) -> Path:
-    """Write the model beside a stand-in's tokenizer and chat template; return its folder. It never
-    ends an answer but by chance.
+    """Write a model of that shape; return its folder. It never ends an answer but by chance."""
+    made = random_model("Qwen2.5-3B-Instruct", folder, SHAPE, seed)
+    return made.rename(folder / "random-Qwen2.5-0.5B")
+
+
+def random_model(candidate: str, folder: Path, shape: dict[str, Any], seed: int = 0) -> Path:
+    """Write a random model of that shape beside a stand-in's tokenizer and chat template, marked as
+    a stand-in; return its folder.
     """
     import torch
-    from transformers import Qwen2Config, Qwen2ForCausalLM
+    from transformers import AutoConfig, AutoModelForCausalLM
 
     sys.path.append(str(Path(__file__).parent.parent))
     from scripts.make_standins import make_standin
 
-    target = make_standin("Qwen2.5-3B-Instruct", folder, seed)
-    settings = json.loads((target / "config.json").read_text()) | SHAPE
+    target = make_standin(candidate, folder, seed)
+    settings = json.loads((target / "config.json").read_text()) | shape
     settings.pop("layer_types", None)
     torch.manual_seed(seed)
-    before = torch.get_default_dtype()
-    torch.set_default_dtype(torch.bfloat16)
-    try:
-        model = Qwen2ForCausalLM(Qwen2Config(**settings))
-    finally:
-        torch.set_default_dtype(before)
+    config = AutoConfig.for_model(settings.pop("model_type"), **settings)
+    with torch.device("cuda" if torch.cuda.is_available() else "cpu"):
+        model = AutoModelForCausalLM.from_config(config, dtype=torch.bfloat16)
     model.save_pretrained(target)
-    return target.rename(folder / "random-Qwen2.5-0.5B")
+    return target

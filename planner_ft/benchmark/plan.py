@@ -129,7 +129,7 @@ def make_plan(settings: BenchSettings) -> Plan:
     configurations = list(dict.fromkeys(map(parse_configuration, settings.configurations)))
     if server:
         _check_servable(configurations)
-    candidates = [] if server else _candidates(settings)
+    candidates = [] if server else _candidates(settings, vocabulary)
     needs_adapter = any(configuration.adapter for configuration in configurations)
     chosen = _adapters(settings, candidates) if candidates and needs_adapter else {}
     _check_limit(settings, candidates, configurations, vocabulary)
@@ -157,10 +157,10 @@ def make_plan(settings: BenchSettings) -> Plan:
     return Plan(settings, data, vocabulary, device, every)
 
 
-def _candidates(settings: BenchSettings) -> list[Candidate]:
+def _candidates(settings: BenchSettings, vocabulary: Vocabulary) -> list[Candidate]:
     found: dict[str, Candidate] = {}
     for text in settings.candidates:
-        candidate = resolve_candidate(text)
+        candidate = resolve_candidate(text).serving(vocabulary)
         if found.setdefault(candidate.name, candidate).folder != candidate.folder:
             problem = f"two different folders are named {candidate.name}; rename one of them"
             raise PlannerError(f"--candidates: {problem}")
@@ -233,7 +233,7 @@ def _job(
 ) -> Job:
     folder = loading.require_folder(candidate)
     used = adapter if configuration.adapter else None
-    quantization = candidate.stored_as(settings.level, vocabulary, settings.quantization)
+    quantization = candidate.stored_as(settings.level, settings.quantization)
     with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, used)
     parts = {
         "model": weights_sha256(folder),

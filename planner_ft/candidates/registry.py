@@ -94,7 +94,7 @@ class Dimensions:
 class Candidate:
     """A language model that can be prompted, fine-tuned and benchmarked. `folder` is where it lies
     on this machine, None when it is not here. `vocabulary` names the vocabulary that it was
-    pretrained on; `adapter` holds there, `other_vocabulary` elsewhere.
+    pretrained on; for any other, the candidate named `reader` takes its place.
     """
 
     name: str
@@ -105,9 +105,9 @@ class Candidate:
     licence: str = "see its model card"
     gated: bool = False
     vocabulary: str | None = None
+    reader: str | None = None
     dimensions: Dimensions | None = None
     adapter: dict[Level, dict[str, Any]] = field(default_factory=dict)
-    other_vocabulary: dict[Level, dict[str, Any]] = field(default_factory=dict)
     folder: Path | None = None
     source: Source | None = None
     is_standin: bool = False
@@ -142,16 +142,21 @@ class Candidate:
         below = self.folder.is_relative_to(Path.cwd())
         return str(self.folder.relative_to(Path.cwd()) if below else self.folder)
 
-    def adapter_defaults(self, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
-        """Its deviations from the published adapter settings at `level`, for this vocabulary."""
-        other = self.vocabulary is not None and not self.knows(vocabulary)
-        return (self.other_vocabulary if other else self.adapter).get(level, {})
+    def adapter_defaults(self, level: Level) -> dict[str, Any]:
+        """Its deviations from the published adapter settings at `level`."""
+        return self.adapter.get(level, {})
 
-    def stored_as(
-        self, level: Level, vocabulary: Vocabulary, asked: Quantization | None
-    ) -> Quantization:
+    def serving(self, vocabulary: Vocabulary) -> Candidate:
+        """The candidate that plans for this vehicle: itself, or its reader for one that it was not
+        pretrained on.
+        """
+        return (
+            resolve_candidate(self.reader) if self.reader and not self.knows(vocabulary) else self
+        )
+
+    def stored_as(self, level: Level, asked: Quantization | None) -> Quantization:
         """The quantization that was asked for, else the one that its adapters are trained with."""
-        trained: Quantization = self.adapter_defaults(level, vocabulary).get("quantization", "nf4")
+        trained: Quantization = self.adapter_defaults(level).get("quantization", "nf4")
         return asked or trained
 
     def knows(self, vocabulary: Vocabulary) -> bool:

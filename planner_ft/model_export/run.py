@@ -104,7 +104,7 @@ class _Work:
         self.settings, self.say, self.begun = settings, say, time.time()
         self.level, named = settings.named_adapter
         self.vocabulary = load_vocabulary(settings.vocabulary)
-        self.candidate = resolve_candidate(settings.candidate)
+        self.candidate = resolve_candidate(settings.candidate).serving(self.vocabulary)
         folder = require_folder(self.candidate)
         self.adapter = None
         if settings.merge:

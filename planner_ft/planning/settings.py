@@ -110,7 +110,7 @@ def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level,
 
 def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agent:
     own_candidate, own_adapter, own = (getattr(settings, f"{level}_{what}") for what in OWN)
-    candidate = resolve_candidate(own_candidate or settings.candidate)
+    candidate = resolve_candidate(own_candidate or settings.candidate).serving(vocabulary)
     require_folder(candidate)
     wanted = own or settings.configuration
     configuration = parse_configuration(wanted) if wanted else None
@@ -133,5 +133,5 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
             f" name one with --{level}-adapter, or give --configuration {without}"
         )
     with_vocabulary = prompt_has_vocabulary(candidate, vocabulary, adapter)
-    quantization = candidate.stored_as(level, vocabulary, settings.quantization)
+    quantization = candidate.stored_as(level, settings.quantization)
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.data.missions import sample_missions
+from planner_ft.data.unfamiliar import with_unfamiliar_words
 from planner_ft.pretraining.views import view
 from planner_ft.prompts.render import end_of_turn_ids, prompt_frame
 from planner_ft.prompts.text import answer_text
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 IGNORE = -100
 SAMPLES = (6, 12)
 """Samples in a pack, at least and at most."""
+UNFAMILIAR = 0.35
+"""Share of the samples whose targets go by words that the generators do not have."""
 Ids = NDArray[np.int64]
 Part = tuple[Ids, int]
 """Token ids and the length of the prompt among them; of the vocabulary, all is prompt."""
@@ -62,8 +65,13 @@ def draw_packs(
     rng = Random(f"{seed} packs")
     samples = [sample_missions(seed + 31, None, vehicle) for vehicle in vehicles]
     for index in iter(lambda: rng.choices(range(len(vehicles)), weights)[0], None):
-        drawn = list(itertools.islice(samples[index], rng.randint(*SAMPLES)))
-        yield packed(vehicles[index], drawn, vehicles, tokenizer, rng, longest)
+        drawn, vehicle = itertools.islice(samples[index], rng.randint(*SAMPLES)), vehicles[index]
+        records = [
+            (rng.random() < UNFAMILIAR and with_unfamiliar_words(one, vehicle, rng, own=True))
+            or one
+            for one in drawn
+        ]
+        yield packed(vehicle, records, vehicles, tokenizer, rng, longest)
 
 
 def packed(

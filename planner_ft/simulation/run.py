@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.fast import SIMULATORS, Floats, build_simulator
 from planner_ft.simulation.faults import Faults
 from planner_ft.simulation.measures import Observer, RunResult
+from planner_ft.simulation.run_logs import RunLogs
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.slots import GUIDANCE, WAYPOINTS, Slots
 from planner_ft.simulation.staging import Staging
@@ -29,14 +30,11 @@ from planner_ft.simulation.vessel import TOLERANCE, build_vessel, simulation_fil
 from planner_ft.simulation.world import World
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import check_writable, compact_json
+from planner_ft.support.files import check_writable
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import load_vocabulary
 
 MOST_RUNS = 500
-FLUSH = 5.0
-"""Seconds of a run between two writes of its log to the disk, and between two of its poses."""
-POSE = 1.0
 RESULTS, MANIFEST = "results.json", "manifest.json"
 OURS = (
     "run-*.jsonl",
@@ -221,7 +219,7 @@ class _Prepared:
     def run(self, report: Report, watch: Watch | None) -> Simulated:
         settings, staging = self.settings, self.staging
         with contextlib.ExitStack() as stack:
-            writer = _Writer(settings, stack)
+            writer = RunLogs(settings.folder, settings.runs, settings.mcap, settings.faults, stack)
             origin = self.plan.origin or Origin(0.0, 0.0)
             scene = Scene(self.world, self.simulator, self.starts, origin, writer.write)
             tasks = [task["id"] for task in self.plan.document["tasks"]]
@@ -246,64 +244,6 @@ class _Prepared:
 
     def _way(self) -> list[Point]:
         return [point for leg in self.plan.track.legs for point in leg.points]
-
-
-class _Writer:
-    """The logs of all runs: lines of JSON, and ROS 2 messages of the first runs."""
-
-    def __init__(self, settings: SimulationSettings, stack: contextlib.ExitStack) -> None:
-        self.settings, self.stack = settings, stack
-        self.files: list[IO[str]] = []
-        self.first: list[dict[str, Any]] = []
-        self.tracks: list[list[Point]] = [[] for _run in range(settings.runs)]
-        for run in range(settings.runs):
-            path = settings.folder / f"{name_of(run)}.jsonl"
-            stream = open(path, "w", encoding="utf-8")  # noqa: SIM115
-            self.files.append(stack.enter_context(stream))
-        self.ros: list[Any] = []
-
-    def begin(self, scene: Scene, observer: Observer, way: Sequence[Point]) -> None:
-        from planner_ft.simulation.ros_log import RosLog
-
-        self.scene, self.observer = scene, observer
-        for run in range(self.settings.mcap):
-            stream = open(self.settings.folder / f"{name_of(run)}.mcap", "wb")  # noqa: SIM115
-            self.ros.append(RosLog(stream, scene, run, way))
-            self.stack.callback(self.ros[-1].close)
-
-    def write(self, run: int, line: dict[str, Any]) -> None:
-        """One line of the log of a run."""
-        if run == 0:
-            self.first.append(line)
-        self.observer.noted(run, line)
-        self.files[run].write(compact_json(line) + "\n")
-        if run < len(self.ros):
-            self.ros[run].note(line)
-
-    def step(self, executor: Executor) -> None:
-        """Poses, faults that begin or end, and ROS 2 messages of this time step."""
-        scene, active = self.scene, np.flatnonzero(executor.active)
-        for fault in self.settings.faults.all:
-            for at, words in ((fault.start, "begins"), (fault.end, "ends")):
-                if 0 <= scene.time - at < scene.seconds - 1e-9:
-                    for run in active:
-                        scene.note(int(run), "event", {"text": f"fault {fault.text} {words}"})
-        if scene.steps % round(POSE / scene.seconds) == 0:
-            for run in active:
-                x, y, _z, yaw = (round(float(one), 2) for one in scene.pose[run])
-                self.tracks[run].append((x, y))
-                line = {"t": round(scene.time, 1), "kind": "pose", "pose": [x, y, yaw]}
-                self.files[run].write(compact_json(line) + "\n")
-        for run in active[active < len(self.ros)]:
-            self.ros[run].step()
-        if scene.steps % round(FLUSH / scene.seconds) == 0:
-            for stream in (*self.files, *self.ros):
-                stream.flush()
-
-
-def name_of(run: int) -> str:
-    """The name of a run's files; `run` counts from 0."""
-    return f"run-{run + 1:02d}"
 
 
 def _clear(folder: Path) -> None:

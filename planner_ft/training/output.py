@@ -161,7 +161,12 @@ def run_manifest(
     if request.corrections:
         inputs["corrections"] = request.corrections
     files = [output / name for name in (WEIGHTS, CONFIG, SEEN, "tokenizer.json", LOG)]
-    before, after = prompt_frame(request.level, prepared.tokenizer, request.vocabulary)
+    before, after = prompt_frame(
+        request.level,
+        prepared.tokenizer,
+        request.vocabulary,
+        with_vocabulary=request.settings.vocabulary_in_prompt,
+    )
     return build_manifest(
         "train",
         seed=settings.seed,

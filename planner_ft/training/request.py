@@ -136,9 +136,8 @@ def build_request(
     vocabulary = attempt(load_vocabulary, named.get("vocabulary") or "usv")
     sources = [Source("flag", flags), Source(path, values)]
     if candidate and level and vocabulary:
-        own = candidate.vocabulary is None or candidate.knows(vocabulary)
-        label = candidate.name if own else f"{candidate.name} for another vocabulary"
-        sources.append(Source(label, candidate.adapter_defaults(level, vocabulary)))
+        candidate = candidate.serving(vocabulary)
+        sources.append(Source(candidate.name, candidate.adapter_defaults(level)))
     resolved = resolve_settings(level or "mission", sources, problems)
     if resolved.settings.select == "f1" and not resolved.settings.validation_answers:
         problems.append("--select f1 needs --validation-answers of at least 1")

@@ -33,7 +33,11 @@ def _nothing_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_seven_published_candidates_and_the_embedded_one_are_registered() -> None:
-    assert [candidate.name for candidate in all_candidates()] == [*PUBLISHED_SIZES, "embedded"]
+    assert [candidate.name for candidate in all_candidates()] == [
+        *PUBLISHED_SIZES,
+        "embedded",
+        "embedded-reader",
+    ]
     assert {
         candidate.name: candidate.parameters
         for candidate in all_candidates()
@@ -135,6 +139,17 @@ def test_only_the_very_vocabulary_of_pretraining_is_known() -> None:
         "another file of the same name"
     )
     assert not Candidate("other").knows(vocabulary)
+
+
+def test_another_vehicle_is_planned_for_by_the_reader() -> None:
+    embedded, drone = resolve_candidate("embedded"), load_vocabulary("inspection_drone")
+    assert embedded.serving(load_vocabulary()) is embedded
+    reader = embedded.serving(drone)
+    assert reader.name == "embedded-reader" and reader.folder is not None
+    assert reader.serving(drone) is reader and not reader.knows(drone)
+    assert reader.adapter_defaults("mission")["vary"]
+    other = Candidate("other")
+    assert other.serving(drone) is other
 
 
 def test_dimensions_of_a_config_without_optional_fields(standins: Path) -> None:

@@ -60,25 +60,24 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
         literal = {
             fill.parameter.name for item in bound.lines for fill in item.fills if not fill.slot
         }
-        for seed in range(2 if number % 4 == 0 else 1):
-            command = sampler.compose([line], random.Random(f"{line.id}{seed}"))
-            text, expected = command.text, command.expected
-            assert text, line.where
-            assert plan_problems("mission", expected, vehicle, strict=True) == [], line.where
-            if number % 4:
-                continue
-            problems = rule_problems(expected, vehicle, plain(text))
-            values = [
-                problem
-                for problem in problems
-                if "does not follow from" in problem or "not in the command" in problem
-            ]
-            left = [item for item in values if item.split(", ")[1].split(":")[0] not in literal]
-            unread += [f"{line.where}: {plain(text)}: {item}" for item in left]
-            exceptions += len(problems) > len(values)
-    assert exceptions < 0.04 * len(lines) / 2 + 1
+        command = sampler.compose([line], random.Random(f"{line.id}0"))
+        text, expected = command.text, command.expected
+        assert text, line.where
+        assert plan_problems("mission", expected, vehicle, strict=True) == [], line.where
+        if number % 4:
+            continue
+        problems = rule_problems(expected, vehicle, plain(text))
+        values = [
+            problem
+            for problem in problems
+            if "does not follow from" in problem or "not in the command" in problem
+        ]
+        left = [item for item in values if item.split(", ")[1].split(":")[0] not in literal]
+        unread += [f"{line.where}: {plain(text)}: {item}" for item in left]
+        exceptions += len(problems) > len(values)
+    assert exceptions < 0.04 * len(lines) / 4 + 1
     # "x 6, y 91 and half as long": a text may be read in another way.
-    assert len(unread) < 0.004 * len(lines), unread
+    assert len(unread) < 0.002 * len(lines), unread
 
 
 @pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)

@@ -116,6 +116,22 @@ def test_a_place_is_forgotten_with_the_last_task_at_it(plan: PlanDocument) -> No
     assert apply(fewer, {"kind": "remove", "task": "t3"}, USV)["located"] == {}
 
 
+def test_a_constraint_is_changed_added_and_removed_and_the_others_stay(plan: PlanDocument) -> None:
+    edits = (
+        ({"at": 0, "text": "One."}, ["One."]),
+        ({"at": 1, "text": "Two."}, ["One.", "Two."]),
+        ({"at": 2, "text": "Three."}, ["One.", "Two.", "Three."]),
+        ({"at": 1, "text": "2."}, ["One.", "2.", "Three."]),
+        ({"at": 0}, ["2.", "Three."]),
+        ({"at": 1}, ["2."]),
+    )
+    for edit, left in edits:
+        plan = apply(plan, {"kind": "constraint", **edit}, USV)
+        assert plan["constraints"] == left
+    with pytest.raises(PlannerError, match="constraint 2: the plan has 1"):
+        apply(plan, {"kind": "constraint", "at": 1}, USV)
+
+
 def test_tasks_are_removed_moved_and_inserted(plan: PlanDocument) -> None:
     assert [
         entry["id"] for entry in apply(plan, {"kind": "remove", "task": "t4"}, USV)["tasks"]
@@ -229,7 +245,7 @@ def test_what_was_altered_outside_is_adopted_or_not_edited(plan: PlanDocument) -
         apply(by_hand, {"kind": "remove", "task": "t1"}, USV)
     adopted = adopt(by_hand, USV, "Ada")
     assert not altered(adopted) and [change.text for change in differences(adopted)] == [
-        "task 4, KeepStation: duration 60 -> 600"
+        "task 4, KeepStation: duration 60 -> 600, changed by Ada"
     ]
     assert adopted["edits"][-1]["by"] == "Ada" and undo(adopted, USV) == plan
     by_id(by_hand, "t4")["parameters"]["duration"] = "long"

@@ -48,6 +48,13 @@ def test_what_is_wrong_and_what_is_lacking_is_named(rover: Path) -> None:
     assert "my_rover.commands.jsonl:2" in parts["my_rover.commands.jsonl"].text
 
 
+def test_a_slot_that_nothing_fills_is_named(rover: Path) -> None:
+    commands = rover.with_suffix(".commands.jsonl")
+    commands.write_text(commands.read_text().replace("{duration}.", "{nonsense} {duration}.", 1))
+    text = next(part.text for part in check_vehicle(str(rover)) if part.file == commands.name)
+    assert "my_rover.commands.jsonl:2: {nonsense} is no target, parameter or word list" in text
+
+
 def test_a_task_that_nobody_asks_for_is_named(rover: Path) -> None:
     commands = rover.with_suffix(".commands.jsonl")
     kept = [line for line in commands.read_text().splitlines() if "Report" not in line]

@@ -81,7 +81,7 @@ def test_a_published_mission_stands_beside_its_figures(run: Run) -> None:
 
     found = "Find Durius and collect data near the J-tubes. Summarize it, then come back."
     columns = table(run(SHORT, how={"command": found})).columns
-    assert columns == ("fast", "mission 2 (published)", "2 + survey (published)")
+    assert list(columns) == ["fast", "mission 2 (published)", "2 + survey (published)"]
 
 
 def test_a_seed_gives_the_same_runs(run: Run) -> None:

@@ -168,14 +168,14 @@ def test_every_setting_is_a_flag():
     assert {f"--{name.replace('_', '-')}" for name in FIELDS} <= flags
 
 
-def test_a_candidates_own_settings_hold_for_the_vocabulary_that_it_was_pretrained_on():
+def test_each_embedded_candidate_has_settings_of_its_own():
     run = {"level": "mission", "candidate": "embedded"}
     own, other = (
         build_request({**run, "vocabulary": name}, {}).resolved
         for name in ("usv", "inspection_drone")
     )
     assert own.origin["learning_rate"] == "embedded"
-    assert other.origin["learning_rate"] == "embedded for another vocabulary"
+    assert other.origin["learning_rate"] == "embedded-reader"
     assert other.settings.learning_rate > 10 * own.settings.learning_rate
     real = build_request({**run, "candidate": "Qwen2.5-3B", "vocabulary": "inspection_drone"}, {})
     assert real.resolved.departures("mission") == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -127,24 +128,27 @@ class Runs:
 
     def abort(self, name: str) -> None:
         """Stop the run at once: no frame comes after this. Raises PlannerError without one."""
-        with self._lock:
-            run = self.last
-            if run is None or not run.is_on:
-                raise PlannerError("no run is on; there is nothing to abort")
-            by = name.strip() or run.by
-            run.stop.reason = f"aborted by {by}"
-            run.stop.event.set()
-            at = run.frames[-1]["t"] if run.frames else 0.0
-        record_run("aborted", run.desk.document, self.log, by, f"after {at:g} s, {run.folder.name}")
+        self._stop(name, "")
         assert self._thread is not None
         self._thread.join(PATIENCE)
         self.changed()
 
     def end(self) -> None:
         """The server ends, and so does a run."""
-        if self.last is not None:
-            self.last.stop.reason = self.last.stop.reason or "the review was ended"
-            self.last.stop.event.set()
+        with contextlib.suppress(PlannerError):
+            self._stop("", "the review was ended, ")
+
+    def _stop(self, name: str, why: str) -> None:
+        with self._lock:
+            run = self.last
+            if run is None or not run.is_on:
+                raise PlannerError("no run is on; there is nothing to abort")
+            by = name.strip() or run.by
+            run.stop.reason = why.removesuffix(", ") or f"aborted by {by}"
+            run.stop.event.set()
+            at = run.frames[-1]["t"] if run.frames else 0.0
+        words = f"{why}after {at:g} s, {run.folder.name}"
+        record_run("aborted", run.desk.document, self.log, by, words)
 
     def _carry_out(self, runner: Runner, run: _Run) -> None:
         def tell(frame: Frame) -> None:

@@ -62,6 +62,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(360)], (), "repeat-lost"),
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(1080)], (), None),
         ("Circle the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
+        ("Circle the mast at 60,60 at 20 m. Do not circle it twice.", [orbit(360)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0), to(9, 0)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
         ("Go to 1,5 and be home by 15:00.", [to(1, 5), to(0, 0)], (), "limit-lost"),

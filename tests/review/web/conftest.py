@@ -12,6 +12,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner_ft.document import PlanDocument, build, write_document
+from planner_ft.exporters import page as exporting
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.web.app import web_app
@@ -79,7 +80,11 @@ def serve_plan(tmp_path: Path) -> Serve:
 
     def make(path: Path | None, **settings: Any) -> TestClient:
         planning = PlanSettings(configuration="base", **settings)
-        session = Session(path, WebSettings(folder=tmp_path, planning=planning), load_vocabulary())
+        session = Session(
+            path,
+            WebSettings(folder=tmp_path, planning=planning, exporting=exporting),
+            load_vocabulary(),
+        )
         door = Door("127.0.0.1", PORT)
         client = TestClient(
             web_app(session, door), base_url=BASE, follow_redirects=False, headers={"Origin": BASE}

@@ -18,6 +18,7 @@ from starlette.testclient import TestClient
 from planner_ft.document import altered, apply, document_digest, read_document, write_document
 from planner_ft.document.edits import KINDS
 from planner_ft.review import read_log
+from planner_ft.review.web.planning import Planning
 from planner_ft.vocabulary import load_vocabulary
 from tests.review.web.conftest import COMMAND, MARKUP, REMOVE, Serve, make_document, post, state
 
@@ -421,3 +422,30 @@ def test_any_edit_is_made_or_refused_in_a_sentence(
         answered.status_code == 200 or len(answered.json()["error"]) > 10
     )
     assert read_document(plan) == state(client)["document"] and not altered(read_document(plan))
+
+
+def test_a_command_that_is_not_english_is_a_question_until_it_is_overruled(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Planning, "ask", lambda *_work: None)
+    german = "Fahre zur Boje, umkreise sie und komm wieder nach Hause."
+    asked = post(client, "/api/plan", command=german)
+    assert asked.status_code == 422
+    assert "it is not English" in asked.json()["question"]
+    assert post(client, "/api/plan", command=german, sure=True).status_code == 202
+    assert post(client, "/api/plan", command="Come home.").status_code == 202
+
+
+def test_an_edit_is_made_in_the_name_that_is_given(client: TestClient, plan: Path) -> None:
+    revision = state(client)["revision"]
+    refused = post(client, "/api/edit", revision=revision, edit=REMOVE, by="A\x1bda")
+    assert refused.status_code == 422
+    after = post(client, "/api/edit", revision=revision, edit=REMOVE, by="Ada").json()
+    assert after["document"]["edits"][-1]["by"] == "Ada"
+    assert after["differences"][-1]["by"] == "Ada"
+
+
+def test_only_an_approved_plan_is_exported(client: TestClient) -> None:
+    refused = post(client, "/api/export", revision=state(client)["revision"], formats=["bt"])
+    assert refused.status_code == 422
+    assert "approve it" in refused.json()["error"]

@@ -116,6 +116,17 @@ def test_an_abort_stops_the_vehicle_at_once(opened: Open, tmp_path: Path) -> Non
     assert begin(client).status_code == 200
 
 
+def test_a_run_ends_with_its_review(opened: Open, tmp_path: Path) -> None:
+    plan = saved(tmp_path, [transit(200, 0)])
+    client = opened(plan)
+    with client:
+        begin(client, speed=1)
+        until(client, lambda: len(frames(client)) > 0)
+    assert events(plan)[1][0] == "aborted" and events(plan)[1][1].startswith("the review was ended")
+    until(client, lambda: len(events(plan)) == 3)
+    assert events(plan)[2][1] == "stopped: the review was ended, plan.run-01"
+
+
 def test_what_cannot_be_run_is_told(opened: Open, tmp_path: Path) -> None:
     plan = saved(tmp_path, [transit(200, 0)])
     client = opened(plan)
