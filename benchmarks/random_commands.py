@@ -30,7 +30,7 @@ from planner_ft.vocabulary import load_vocabulary
 WORDS = """\
 go to|survey|circle|hold at|inspect|drift at|take a panorama at|map|run along|never enter|keep off|film
 the buoy|the quay|the wreck|the north side|the cable|a grid|the depths|video|home|the divers|it
-, | and |. Then | but |; | or rather | while | no, | before
+,| and|. Then| but|;| or rather| while| no,| before
 {} m|{} metres off|within {} m|radius {}|{} m lines|for {} s|at {} m/s|heading {} degrees
 for {} minutes|at most {} minutes"""
 VERBS, THINGS, JOINTS, METRES, MINUTES = (line.split("|") for line in WORDS.splitlines())
@@ -54,7 +54,7 @@ def random_command(rng: Random) -> tuple[str, list[tuple[str, float]]]:
             clause.append(form.format(number))
             numbers.append((str(number), float(number * factor)))
         parts.append(" ".join(clause))
-    text = parts[0] + "".join(rng.choice(JOINTS) + part for part in parts[1:])
+    text = parts[0] + "".join(f"{rng.choice(JOINTS)} {part}" for part in parts[1:])
     if rng.random() > 0.33:
         return text, numbers
     return " ".join(rng.sample(text.split(), len(text.split()))), []
