@@ -50,11 +50,17 @@ def _entry(limit: Limit, known: Limits, tasks: list[dict[str, Any]]) -> dict[str
     entry = {"kind": limit.kind, "values": limit.values, "text": limit.text, "tasks": held}
     entry |= {"filter": kind.filter} if kind.filter else {}
     place = "position" in limit.values or "object" not in limit.values
-    if limit.kind == "return":
+    if limit.kind == "return" and time_left(limit.values) is None:
         entry["unchecked"] = "the plan has no time of day"
     elif not place:
         entry["unchecked"] = f"where {limit.values['object']} is, is not known"
     return entry
+
+
+def time_left(values: Mapping[str, Any]) -> float | None:
+    """Seconds to be back within, where a time of return is a duration ("40 minutes")."""
+    readings = read(str(values["time"])).numbers("s")
+    return readings[0].value if len(readings) == 1 and readings[0].unit == "s" else None
 
 
 def _words(limit: Mapping[str, Any], command: str, vocabulary: Vocabulary) -> Span | None:

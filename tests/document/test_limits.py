@@ -147,6 +147,17 @@ def test_speed_and_recording_are_checked_in_tasks_and_steps() -> None:
     assert not broken("Nothing is recorded near the pier.", tasks=tasks)
 
 
+def test_a_time_of_return_that_is_a_duration_is_checked_against_the_plan() -> None:
+    tasks = [
+        transit(100, 50),
+        task("KeepStation", {"duration": 3000}, [step("StationKeep", {"time": 3000})]),
+    ]
+    assert "takes about" in broken("The vehicle is back by 40 minutes.", tasks=tasks)[0]
+    assert not broken("The vehicle is back by two hours.", tasks=tasks)
+    plan = document(tasks, constraints=["The vehicle is back by 40 minutes."])
+    assert not plan["limits"][0].get("unchecked")
+
+
 def test_what_cannot_be_checked_is_said() -> None:
     texts = ["The vehicle is back by 16:30.", "The vehicle stays at least 9 m from the ferry."]
     plan = document([transit(100, 50)], constraints=texts)

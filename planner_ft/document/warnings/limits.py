@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.clearance import MOVING, close_legs, shown, way_off
-from planner_ft.document.limits import limits_of
+from planner_ft.document.limits import limits_of, time_left
 from planner_ft.document.track import Leg, Track
 from planner_ft.document.warnings.warning import Warning, named, warning
 from planner_ft.planning.limits import without_limits
@@ -64,9 +64,10 @@ def _broken(
         return (task, f"goes {farthest:.0f} m away from home") if too_far else None
     if kind == "speed":
         return _too_fast(values["speed"], held, vocabulary)
-    if kind == "duration" and len(held) == len(document["tasks"]):
+    most = time_left(values) if kind == "return" else values.get("duration")
+    if most is not None and len(held) == len(document["tasks"]):
         seconds = (document.get("estimate") or {}).get("seconds", 0)
-        return ("", f"The plan takes about {seconds} s") if seconds > values["duration"] else None
+        return ("", f"The plan takes about {seconds} s") if seconds > most else None
     if kind == "no_recording":
         return _recording(limit, held, vocabulary)
     return None
