@@ -148,7 +148,7 @@ def test_an_answer_that_is_not_valid_is_shown_and_exits_with_1(
         (["  "], "the command is empty"),
         ([COMMAND, "--locate", "buoy"], '--locate buoy: expected "NAME=x,y"'),
         ([COMMAND, "--locate", "buoy=1,2", "--locate", "buoy=2,2"], "two positions are given"),
-        ([COMMAND, "--candidate", "embeded"], "did you mean embedded?"),
+        ([COMMAND, "--candidate", "embeded"], "did you mean embedded or"),
         ([COMMAND, "--configuration", "best"], "best: unknown"),
         ([COMMAND, "--mission-adapter", "nowhere"], "nowhere: no such adapter folder"),
         ([COMMAND, "--quantization", "int8"], "must be nf4 or none"),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import torch
 
-from planner_ft.pretraining.corpus import IGNORE, batched, load_shard, rows_of, tokenizer_texts
+from planner_ft.pretraining.corpus import batched, load_shard, rows_of, tokenizer_texts
 from planner_ft.pretraining.loop import (
     PretrainSettings,
     completion_loss,
@@ -16,6 +16,7 @@ from planner_ft.pretraining.loop import (
     new_model,
     pretrain,
 )
+from planner_ft.pretraining.packs import IGNORE
 from planner_ft.pretraining.tokenizer import train_tokenizer
 from planner_ft.prompts.text import system_text
 from planner_ft.vocabulary import load_vocabulary
@@ -60,7 +61,7 @@ def test_the_tokenizer_is_the_same_for_the_same_texts(tokenizer: Any) -> None:
 
 
 def test_batches_hold_every_sample_once_and_little_padding(shard: Path) -> None:
-    samples = load_shard(shard)
+    samples = load_shard(shard)[0]
     batches = batched(samples, 2048, 0, seed=3)
     found = [
         tuple(row[: len(ids)])
@@ -79,7 +80,7 @@ def test_batches_hold_every_sample_once_and_little_padding(shard: Path) -> None:
 
 
 def test_padding_does_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
-    samples = sorted(load_shard(shard), key=lambda sample: len(sample[0]))[:4]
+    samples = sorted(load_shard(shard)[0], key=lambda sample: len(sample[0]))[:4]
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
     weights = [len(ids) - prompt for ids, prompt in samples]
     apart = [
@@ -94,7 +95,7 @@ def test_padding_does_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_shares_of_a_batch_add_up_to_it(shard: Path, tokenizer: Any, count: int) -> None:
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    rows = rows_of(load_shard(shard)[:count], 1024, 0)
+    rows = rows_of(load_shard(shard)[0][:count], 1024, 0)
 
     def gradients(rank: int, world: int) -> list[torch.Tensor]:
         model.zero_grad()
@@ -127,7 +128,7 @@ def test_the_loss_falls_and_an_interrupted_run_continues(
         for a, b in zip(first.state_dict().values(), second.state_dict().values(), strict=True)
     )
     fresh: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    rows = rows_of(load_shard(shard)[:8], 1024, 0)
+    rows = rows_of(load_shard(shard)[0][:8], 1024, 0)
     assert completion_loss(first, first.model, rows) < 0.9 * completion_loss(
         fresh, fresh.model, rows
     )

@@ -149,7 +149,7 @@ def test_a_command_with_markup_comes_back_as_it_was_given(
     known()
     with serve_plan(None) as client:
         page = Listener(client.app_state["session"].events)
-        assert post(client, "/api/plan", command=MARKUP).status_code == 202
+        assert post(client, "/api/plan", command=MARKUP, sure=True).status_code == 202
         busy = state(client)["busy"]
         assert busy is None or busy["command"] == MARKUP
         told = page.until(lambda told: saw("skills")(told) and rested(client)(told))
