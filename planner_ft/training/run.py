@@ -83,7 +83,9 @@ def train(
             return None
         ranks.wait()  # everybody has seen the folder as it was
         with _limits(request, prepared):
-            return _train(request, prepared, console, fingerprint, new_judge, ranks)
+            manifest = _train(request, prepared, console, fingerprint, new_judge, ranks)
+        ranks.wait()
+        return manifest
 
 
 def _check(request: TrainRequest, prepared: Prepared, console: Console) -> None:
