@@ -60,13 +60,14 @@ def verdict(results: Results, first: str, second: str, metric: str) -> str:
     return "not compared"
 
 
-def sentences(drone: Results, surface: Results, trained: dict) -> list[str]:
+def sentences(drone: Results, surface: Results, trained: dict, commands: int) -> list[str]:
     rows = {one.system.configuration: one for one in drone.rows}
-    seconds, samples = trained["result"]["seconds"], trained["samples"]["training"]
+    seconds, copies = trained["result"]["seconds"], trained["samples"]["training"] - commands
     return [
         "Shown the drone's tasks in its prompt alone, the base reaches"
         f" {figures(rows['base'])}, held to the schema {figures(rows['base+schema'])}; an"
-        f" adapter trained on {samples} commands in {clock(seconds)} minutes reaches"
+        f" adapter trained on {commands} commands and {copies} copies with other values in"
+        f" {clock(seconds)} minutes reaches"
         f" {figures(rows['lora'])}, by F1 {verdict(drone, 'base', 'lora', 'f1')}.",
         "With the facts of the command enforced the same adapter reaches"
         f" {figures(rows['lora+grounded'])}, by whole plans"
@@ -87,7 +88,8 @@ def main() -> None:
     rows = section("Inspection drone, new to the base", drone)
     rows += section("Surface vehicle, as shipped", surface)
     table = Table("", [METRIC[one].title for one in COLUMNS], rows)
-    said = sentences(drone, surface, read_json(out / "adapter" / "manifest.json"))
+    commands = read_text(out / "data" / "drone" / "mission" / "train.jsonl").count("\n")
+    said = sentences(drone, surface, read_json(out / "adapter" / "manifest.json"), commands)
     text = "\n".join([markdown_table(table), *(f"- {one}" for one in said)]) + "\n"
     write_text(out / "demo.md", text)
     for suffix, content in picture(chart(drone, surface)).items():
