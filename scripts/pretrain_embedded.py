@@ -71,6 +71,8 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
         arguments.vehicle_share,
         arguments.vehicles,
         arguments.packs,
+        emphasis=arguments.emphasis,
+        subjects=tuple(arguments.subjects),
     )
     drawn = (arguments.shard_samples, settings.longest, mixture)
     jobs = [
@@ -172,69 +174,46 @@ def corpus_summary(work: Path) -> dict[str, Any]:
     }
 
 
-def main() -> None:
-    """Parse the command line and run the step that it asks for."""
+OPTIONS: dict[str, tuple[Any, str]] = {
+    "shards": (20, ""),
+    "shard-samples": (12_000, ""),
+    "mission-share": (0.6, ""),
+    "drill-share": (0.0, "samples of sums alone, the beginnings of task answers, per sample"),
+    "unfamiliar-share": (0.0, "samples whose targets go by words that the generators do not have"),
+    "vehicles": (
+        Path("data/vehicles"),
+        "folder of other vehicles, NAME/NAME.toml with command templates beside it",
+    ),
+    "vehicle-share": (0.0, "missions of those vehicles among all missions"),
+    "packs": (
+        0.0,
+        "groups of samples with a renamed vehicle's vocabulary in their prompt, per sample",
+    ),
+    "emphasis": (0.0, "missions that are drawn from the templates of --subjects alone"),
+    "corpus-seed": (1000, ""),
+    "tokenizer-samples": (20_000, ""),
+    "vocabulary-size": (4096, ""),
+}
+"""Default and help of the options of the corpus; shares are 0 to 1."""
+
+
+def parsed() -> argparse.Namespace:
+    """The command line."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument(
-        "--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log"
+    add = parser.add_argument
+    add("--work", type=Path, required=True, help="folder for tokenizer, corpus, checkpoint and log")
+    add("--export", type=Path, help="write the newest checkpoint as a model folder here and stop")
+    add("--init", type=Path, help="model folder whose weights and tokenizer a stage starts from")
+    add(
+        "--init-share", type=float, default=0.0, help="share of the weights of --init in the export"
     )
-    parser.add_argument(
-        "--export", type=Path, help="write the newest checkpoint as a model folder here and stop"
-    )
-    parser.add_argument(
-        "--init",
-        type=Path,
-        help="model folder whose weights and tokenizer a further stage starts from",
-    )
-    parser.add_argument(
-        "--init-share",
-        type=float,
-        default=0.0,
-        help="share of the weights of --init in those that --export writes, 0 to 1",
-    )
-    parser.add_argument(
-        "--average-with",
-        type=Path,
-        help="model folder of an earlier stage that --init-share is about, instead of --init",
-    )
-    parser.add_argument("--shards", type=int, default=20)
-    parser.add_argument("--shard-samples", type=int, default=12_000)
-    parser.add_argument("--mission-share", type=float, default=0.6)
-    parser.add_argument(
-        "--drill-share",
-        type=float,
-        default=0.0,
-        help="samples of sums alone, the beginnings of task answers, per sample of the corpus",
-    )
-    parser.add_argument(
-        "--unfamiliar-share",
-        type=float,
-        default=0.0,
-        help="samples whose targets go by words that the generators do not have",
-    )
-    parser.add_argument(
-        "--vehicles",
-        type=Path,
-        default=Path("data/vehicles"),
-        help="folder of other vehicles, NAME/NAME.toml with command templates beside it",
-    )
-    parser.add_argument(
-        "--vehicle-share",
-        type=float,
-        default=0.0,
-        help="missions of those vehicles among all missions",
-    )
-    parser.add_argument(
-        "--packs",
-        type=float,
-        default=0.0,
-        help="groups of samples with the vocabulary of a renamed vehicle in their prompt, per sample",
-    )
-    parser.add_argument("--corpus-seed", type=int, default=1000)
-    parser.add_argument("--tokenizer-samples", type=int, default=20_000)
-    parser.add_argument("--vocabulary-size", type=int, default=4096)
+    add("--average-with", type=Path, help="model folder that --init-share is about, not --init")
+    add("--subjects", nargs="*", default=[], help="subjects of command templates, for --emphasis")
+    for name, (default, text) in OPTIONS.items():
+        kind = Path if isinstance(default, Path) else type(default)
+        add(f"--{name}", type=kind, default=default, help=text)
     for field in dataclasses.fields(PretrainSettings):
         kind = type(field.default)
         parser.add_argument(
@@ -242,7 +221,12 @@ def main() -> None:
             type=(lambda text: text == "true") if kind is bool else kind,
             default=field.default,
         )
-    arguments = parser.parse_args()
+    return parser.parse_args()
+
+
+def main() -> None:
+    """Run the step that the command line asks for."""
+    arguments = parsed()
     settings = PretrainSettings(
         **{
             field.name: getattr(arguments, field.name)

@@ -56,25 +56,31 @@ def sample_missions(
 
 
 def missions_with_skills(
-    seed: int, count: int | None, vocabulary: Vocabulary
+    seed: int, count: int | None, vocabulary: Vocabulary, subjects: tuple[str, ...] = ()
 ) -> Iterator[tuple[dict[str, Any], list[list[Beside]]]]:
-    """The samples, each with the skills that its clauses put beside its tasks."""
-    sampler = mission_sampler(vocabulary)
+    """The samples, each with the skills that its clauses put beside its tasks; of the templates of
+    these subjects alone, where some are named.
+    """
+    sampler = mission_sampler(vocabulary, subjects)
     for number in itertools.count() if count is None else range(count):
         yield sampler.sample(Random(seed * 1_000_003 + number), f"synthetic-{seed}-{number}")
 
 
 @functools.lru_cache(maxsize=8)
-def mission_sampler(vocabulary: Vocabulary) -> MissionSampler:
+def mission_sampler(vocabulary: Vocabulary, subjects: tuple[str, ...] = ()) -> MissionSampler:
     """The sampler of a vehicle's missions, made once."""
-    return MissionSampler(vocabulary)
+    return MissionSampler(vocabulary, subjects=subjects)
 
 
 class MissionSampler:
     """Draws commands and their plans for one vehicle, from templates of one split."""
 
     def __init__(
-        self, vocabulary: Vocabulary, split: str | None = "train", clause_split: str | None = None
+        self,
+        vocabulary: Vocabulary,
+        split: str | None = "train",
+        clause_split: str | None = None,
+        subjects: Sequence[str] = (),
     ) -> None:
         self.vocabulary = vocabulary
         self.config = vocabulary.beside(MISSIONS)
@@ -82,7 +88,11 @@ class MissionSampler:
         self.texts = PlanTexts(vocabulary, self.config)
         self.default: str = self.config.get("target", "thing")
         self.draws: dict[tuple[str, str], tuple[Draw, tuple[float, float]]] = {}
-        self.groups = templates(vocabulary, "commands", split)
+        self.groups = [
+            group
+            for group in templates(vocabulary, "commands", split)
+            if not subjects or group[0].subject in subjects
+        ]
         clauses = list(itertools.chain(*templates(vocabulary, "clauses", clause_split or split)))
         kinds = load_limits(vocabulary)
         limits = [line for line in clauses if not line.steps or line.steps[0].call.name in kinds]
@@ -90,8 +100,9 @@ class MissionSampler:
         self.hosts = [group for group in self.groups if group[0].id.startswith(HOSTED)]
         self.short = [line for group in self.groups for line in group if _is_short(line)]
         if not self.groups:
+            named = f" of {', '.join(subjects)}" if subjects else ""
             raise PlannerError(
-                f"vocabulary {vocabulary.name}: there are no command templates for synthetic"
+                f"vocabulary {vocabulary.name}: there are no command templates{named} for synthetic"
                 f" missions; write {vocabulary.name}.commands.jsonl beside the definition"
             )
 
@@ -114,7 +125,7 @@ class MissionSampler:
         shout = all(value == value.lower() for value in values)
         record = {
             "id": name,
-            "family": f"synthetic-{made[0].group.rpartition('-')[0]}",
+            "family": f"synthetic-{made[0].subject}",
             "prompt": plain(noisy(command.text, rng, keep=literal, shout=shout)),
             "expected": command.expected,
             "tags": [] if tasks else ["rule.empty"],

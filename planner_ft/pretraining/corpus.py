@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planner_ft.data.missions import sample_missions
+from planner_ft.data.missions import missions_with_skills, sample_missions
 from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 HANDED_DOWN, HANDED_DOWN_SEED = 0.3, 50_000_000
 """Share of the task inputs that come from missions, and the seed offset of those missions."""
 DRILL_SEED = 70_000_000
+EMPHASIS_SEED = 90_000_000
 CUT = 0.6
 """Share of the samples with a working that end behind it: the plan itself has little to teach."""
 WIDTH_STEP = 8
@@ -80,6 +81,7 @@ class Mixture:
     vehicle whose target gets a name that the generators do not know, where it has a word that can
     be changed; `drills` come on top: sums alone, the beginnings of task answers, per sample; so do
     `packs`, groups of samples with the vocabulary in their prompt, `own` of them of our vehicle.
+    `emphasis` of our vehicle's missions are drawn from the templates of these `subjects` alone.
     """
 
     missions: float = 0.6
@@ -89,6 +91,8 @@ class Mixture:
     folder: Path | None = None
     packs: float = 0.0
     own: float = 0.4
+    emphasis: float = 0.0
+    subjects: tuple[str, ...] = ()
 
 
 def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Drawn]:
@@ -103,7 +107,8 @@ def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Draw
         for one in (vehicles_in(mixture.folder) if mixture.folder and mixture.vehicles else ())
     ]
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
-    vehicles = Random(f"{seed} vehicles")
+    vehicles, emphasis = Random(f"{seed} vehicles"), Random(f"{seed} emphasis")
+    stressed = missions_with_skills(seed + EMPHASIS_SEED, None, vocabulary, mixture.subjects)
     while True:
         level: Level = "mission" if draw.random() < mixture.missions else "task"
         if others and level == "mission" and vehicles.random() < mixture.vehicles:
@@ -113,6 +118,8 @@ def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Draw
         source = missions
         if level == "task":
             source = handed_down if draw.random() < HANDED_DOWN else tasks
+        elif emphasis.random() < mixture.emphasis:
+            source = (record for record, _skills in stressed)
         record, changed = next(source), None
         if words.random() < mixture.unfamiliar:
             changed = with_unfamiliar_words(record, vocabulary, words)

@@ -90,6 +90,11 @@ class Template:
         """Records of one group, whose ids differ behind a dot, are drawn as one."""
         return self.id.partition(".")[0]
 
+    @property
+    def subject(self) -> str:
+        """What a record is about: its id without the number."""
+        return self.group.rpartition("-")[0]
+
 
 def template_files(vocabulary: Vocabulary, kind: Kind) -> list[Path]:
     """The template files of a vehicle, by name."""
