@@ -57,7 +57,10 @@ def test_an_orbit_is_entered_on_its_circle_and_left_round_it(arc: float) -> None
     assert "skill-value-not-said" not in kinds(plan)
 
 
-@pytest.mark.parametrize("name", ["green buoy", "mooring buoy", "light of the harbour"])
+NAMES = ["green buoy", "mooring buoy", "light of the harbour", "platform leg"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff(name: str) -> None:
     plan = document([transit(60, 0, f"Go to the {name} at [60, 0]."), transit(100, 0)])
     assert waypoints(plan)[0] == [50, 0]

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.clearance import MOVING, close_legs, shown, way_off
-from planner_ft.document.limits import limits_of, time_left
+from planner_ft.document.limits import limits_of
 from planner_ft.document.track import Leg, Track
 from planner_ft.document.warnings.warning import Warning, named, warning
-from planner_ft.planning.limits import without_limits
+from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import step_skills

@@ -18,7 +18,7 @@ COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECA
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
-SIZES = re.compile(r"\d\s?[x×]\s?$")
+SIZES = re.compile(r"\d\s?[x×*]\s?$")
 """Stands before the second and third of "20 x 20 x 5"."""
 LONGEST_NAME = 24
 """Characters in which the name of a parameter stands before its value."""
