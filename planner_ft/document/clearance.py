@@ -30,6 +30,8 @@ ROUND, OVER = ("orbit", "square"), ("lawnmower", "line")
 """Patterns of tasks that go round their place, and of those that go over it."""
 FACING = ("sweep", "pass")
 """Patterns of tasks that look at the structure that the vehicle has gone to."""
+FOLLOWING = "follow"
+"""The pattern of a task that goes up to its place and no closer than its filters let it."""
 SAME = 0.6
 """Metres within which a waypoint is a structure itself."""
 MARGIN = 0.5
@@ -100,6 +102,8 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
         radius = task["parameters"].get(circle.radius) if circle else None
         if radius:
             stated.setdefault(place, []).append(float(radius))
+        elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:
+            stated.setdefault(place, []).append(margin)
     visited = {place_of(task, vocabulary) for task in tasks}
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         if (beside.x, beside.y) not in visited:
@@ -114,6 +118,14 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
             standoff = kept.get(place) or min(stated.get(place, [own]))
             found.append(Structure(name or shown(place), place, max(standoff, least)))
     return found
+
+
+def _margin(task: TaskEntry, vocabulary: Vocabulary) -> float:
+    """The largest distance that a filter of a task keeps from obstacles, 0 for none."""
+    filters = [own for step in task.get("skill_sequence") or () for own in step["filter_skills"]]
+    motions = [(vocabulary.motion.of(own["name"]), own["parameters"]) for own in filters]
+    kept = [motion.value("distance", own) for motion, own in motions if motion is not None]
+    return max((float(metres) for metres in kept if metres), default=0.0)
 
 
 def close_legs(

@@ -272,6 +272,17 @@ def _with_shared_units(text: str, numbers: list[Number]) -> list[Number]:
     return shared
 
 
+def rows_of_sizes(text: str) -> list[list[Number]]:
+    """The numbers that are said together: "50 by 60 m", "100x60x20"."""
+    rows = list[list[Number]]()
+    for number in read_numbers(text):
+        if rows and _BY.fullmatch(text, rows[-1][-1].end, number.start):
+            rows[-1].append(number)
+        else:
+            rows.append([number])
+    return [row for row in rows if len(row) > 1]
+
+
 def neighbours(numbers: Iterable[Number], unit: str | None) -> list[Number]:
     """The values that neighbouring numbers are together: "two minutes and thirty seconds"."""
     return [total for total, _whole in _sums(numbers, unit)]

@@ -70,6 +70,22 @@ def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff(name: str) -> N
     assert (buoy.name, buoy.standoff) == (f"the {name}", 10)
 
 
+@pytest.mark.parametrize(("margin", "reached"), [(20, 40), (15, 45), (5, 50), (None, 50)])
+def test_what_is_followed_is_gone_to_no_closer_than_the_filter_lets_it(
+    margin: float | None, reached: float
+) -> None:
+    near = go(60, 0)
+    near["filter_skills"] = [{"name": "ObstacleAvoidance", "parameters": {}}]
+    if margin:
+        near["filter_skills"][0]["parameters"]["min_distance"] = margin
+    follow = task(
+        "FollowTarget", {"target_position": [60, 0]}, [near], "Follow the ferry at [60, 0]."
+    )
+    plan = document([follow])
+    assert waypoints(plan) == [[reached, 0]]
+    assert "structure-close" not in kinds(plan)
+
+
 @pytest.mark.parametrize(
     "prompt",
     [

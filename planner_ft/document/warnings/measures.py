@@ -11,7 +11,7 @@ from planner_ft.document.language import Clause, Language
 from planner_ft.document.warnings.plan_values import PlanValues
 from planner_ft.document.warnings.warning import Warning, warning
 from planner_ft.facts import Number, Position, near
-from planner_ft.facts.numbers import neighbours, read_numbers
+from planner_ft.facts.numbers import neighbours, read_numbers, rows_of_sizes
 from planner_ft.vocabulary import Vocabulary
 
 COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
@@ -39,10 +39,12 @@ def lost_measures(
 ) -> Iterator[Warning]:
     """Measures and courses, but for those that are ruled out, taken back or only told of.
 
-    One that a later clause replaces by a value that the plan has is taken back.
+    One that a later clause replaces by a value that the plan has is taken back. Sizes that are said
+    together must be values of one task.
     """
     numbers = read_numbers(text)
     instead = _instead(numbers, clauses, spoken, plan)
+    apart = {size.start for row in rows_of_sizes(text) for size in plan.missing_sizes(row)}
     for number, following in itertools.zip_longest(numbers, numbers[1:]):
         if not _is_measure(text, number) or not is_wanted(clauses, number.start):
             continue
@@ -52,7 +54,7 @@ def lost_measures(
             continue
         wholes = [*neighbours(numbers, number.unit), number]
         wholes = [one for one in wholes if one.start <= number.start and number.end <= one.end]
-        if any(plan.says(one.value) for one in wholes):
+        if number.start not in apart and any(plan.says(one.value) for one in wholes):
             continue
         other = next((one for one in instead if _replaces(one, number)), None)
         if other is None:

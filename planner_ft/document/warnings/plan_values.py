@@ -8,8 +8,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.facts import Input, Position, is_number, is_place, near
-from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts import Input, Number, Position, is_number, is_place, near
+from planner_ft.facts.numbers import read_numbers, rows_of_sizes
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary.plans import step_skills
 
@@ -38,6 +38,7 @@ class PlanValues:
             for name, value in values.items()
             if is_number(value) and not (name in ("x", "y") and {"x", "y"} <= values.keys())
         ]
+        self.owners = [list(filter(is_number, task["parameters"].values())) for task in tasks]
         self.limited = [float(value) for value in self.limits if is_number(value)]
         self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
         places = [tuple(value) for value in own if is_place(value)]
@@ -51,6 +52,7 @@ class PlanValues:
         corners = [tuple(corner) for polygon in self.polygons for corner in polygon]
         self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
         spoken = [number for line in texts for number in read_numbers(line)]
+        self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
         self.anywhere = {*_flat(own), *(part for one in spoken for part in (one.value, one.said))}
         self.anywhere |= set(_ways([*places, *read], command))
         self.texts = " ".join(texts).casefold()
@@ -59,6 +61,26 @@ class PlanValues:
     def says(self, value: float) -> bool:
         """Whether a number is anywhere in the plan, or a way that it goes, up to its sign."""
         return any(near(abs(value), abs(number)) for number in self.anywhere)
+
+    def missing_sizes(self, row: Sequence[Number]) -> list[Number]:
+        """The sizes of a row that the task with most of them lacks; none where no task has any, or
+        a text has them together.
+        """
+        wanted = [one.value for one in row]
+        alike = [sorted(sizes) for sizes in self.sizes if len(sizes) == len(wanted)]
+        together = (all(map(near, sorted(wanted), sizes)) for sizes in alike)
+        rests = []
+        for owner in () if any(together) else self.owners:
+            left, rest = list(owner), list[Number]()
+            for one in row:
+                held = next((value for value in left if near(value, one.value)), None)
+                if held is None:
+                    rest.append(one)
+                else:
+                    left.remove(held)
+            rests.append(rest)
+        fewest = min(rests, key=len, default=[])
+        return fewest if len(fewest) < len(row) else []
 
     def speaks_of(self, words: str) -> bool:
         """Whether a text of the plan has one of the longer words, or there are none."""
