@@ -104,10 +104,8 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
             stated.setdefault(place, []).append(float(radius))
         elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:
             stated.setdefault(place, []).append(margin)
-    visited = {place_of(task, vocabulary) for task in tasks}
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
-        if (beside.x, beside.y) not in visited:
-            named.setdefault((beside.x, beside.y), words)
+        named.setdefault((beside.x, beside.y), words)
     for charted in ("structures", "located"):
         for name, position in document.get(charted, {}).items():
             if is_thing(name, vocabulary):

@@ -31,7 +31,7 @@ MOST_WAYPOINTS = 128
 def with_shape(
     task: Mapping[str, Any], steps: Sequence[Step], vocabulary: Vocabulary
 ) -> tuple[list[Step], Added]:
-    """The steps with the waypoints of the task's shape, and what was changed; as they are where
+    """The steps with the waypoints of the task's shape, and what was set; as they are where
     they make it, do something beside, or where the prompt says more of it than the parameters.
     """
     names = [
@@ -39,7 +39,7 @@ def with_shape(
         for step in steps
     ]
     points = shape_points(task, vocabulary) if all(names) else []
-    if not points or len(points) < len(steps) or not _is_plain(task, vocabulary):
+    if not points or not _is_plain(task, vocabulary):
         return list(steps), Added()
     given = [step["navigation_skill"]["parameters"] for step in steps]
     made = [(own[x], own[y]) for own, (x, y) in zip(given, names, strict=True)]
@@ -51,9 +51,8 @@ def with_shape(
         done.append(copy.deepcopy(steps[last]))
         skill = done[at]["navigation_skill"]
         for name, value in zip(names[last], canonical_value(list(point)), strict=True):
-            if at > last or not near(skill["parameters"][name], value):
-                mark = {"step": at, "role": "navigation", "name": skill["name"], "kind": VEHICLE}
-                marks.append({**mark, "parameter": name})
+            mark = {"step": at, "role": "navigation", "name": skill["name"], "kind": VEHICLE}
+            marks.append({**mark, "parameter": name})
             skill["parameters"][name] = value
     return done, marks
 

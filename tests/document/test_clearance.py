@@ -70,6 +70,15 @@ def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff(name: str) -> N
     assert (buoy.name, buoy.standoff) == (f"the {name}", 10)
 
 
+def test_a_thing_of_the_command_is_one_where_the_plan_goes_to_it_without_its_name() -> None:
+    command = "Go to [200, 0], past the platform at [100, 0], and come home."
+    tasks = [transit(200, 0, "Go to [200, 0]."), transit(100, 0, "Go to [100, 0]."), transit(0, 0)]
+    plan = document(tasks, command=command)
+    assert nearest(plan, [100, 0]) >= 9.5
+    grid = task("BathymetryGridSurvey", {"center": [100, 0], "width": 9, "length": 9}, None)
+    assert not structures(document([grid], command="Map round the platform at [100, 0]."), USV)
+
+
 @pytest.mark.parametrize(("margin", "reached"), [(20, 40), (15, 45), (5, 50), (None, 50)])
 def test_what_is_followed_is_gone_to_no_closer_than_the_filter_lets_it(
     margin: float | None, reached: float

@@ -21,6 +21,8 @@ from planner_ft.facts import (
     unknown_words,
 )
 from planner_ft.planning.frame import frame_of
+from planner_ft.planning.passes import pass_ends
+from planner_ft.planning.shapes import shape_points
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
@@ -113,6 +115,8 @@ def _unsaid_skills(
     record = {"prompt": task["task_prompt"], "task": task["title"], "parameters": own}
     source, before = read_input(record, vocabulary), list[tuple[float, float]]()
     known = [value for value in own.values() if isinstance(value, list)]
+    shape = [*(pass_ends(task, vocabulary) or ()), *shape_points(task, vocabulary)]
+    known += [list(point) for point in shape]
     warned: set[str] = set()
     added = {(mark["step"], mark["name"]) for mark in task.get("added", ())}
     for number, step in enumerate(steps):
