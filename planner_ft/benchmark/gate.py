@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.folder import Progress
 from planner_ft.benchmark.results import Results
-from planner_ft.benchmark.runner import Progress, run_bench
+from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.support.errors import GateError, PlannerError
 from planner_ft.support.files import read_toml

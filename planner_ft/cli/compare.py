@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
-
-from planner_ft.cli.options import command
+from planner_ft.cli.options import AGAIN, Options, command
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
 
 @command
-def compare(runs: list[Path], **options: Any) -> None:
+def compare(o: Options) -> None:
     """Compare rows of finished runs."""
     from planner_ft.benchmark import compare
     from planner_ft.benchmark.folder import check_folder
     from planner_ft.support.files import indented_json, write_json, write_text
 
-    o = SimpleNamespace(**options)
     if o.same and o.against is not None:
         kinds = f"--same compares rows of the same name and --against {o.against} one row with all"
         raise PlannerError(f"{kinds}: give one of them")
@@ -27,9 +22,8 @@ def compare(runs: list[Path], **options: Any) -> None:
     how = (o.against, o.same, o.common, o.seed)
     with alone(o.out, "--out", "a comparison"):
         if o.out is not None:
-            former = () if o.overwrite else ("comparison.json",)
-            check_folder(o.out, former, "give --overwrite or another --out")
-        report = compare.compare_runs(compare.CompareSettings(tuple(runs), metrics, *how))
+            check_folder(o.out, ("comparison.json",), AGAIN, overwrite=o.overwrite)
+        report = compare.compare_runs(compare.CompareSettings(tuple(o.runs), metrics, *how))
         if o.out is not None:
             for name, text in compare.render_report(report).items():
                 write_text(o.out / name, text)
@@ -41,21 +35,19 @@ def compare(runs: list[Path], **options: Any) -> None:
 
 
 @command
-def report(runs: list[Path], **options: Any) -> None:
+def report(o: Options) -> None:
     """Write the report of runs."""
-    card, out = options.pop("card"), options.pop("out")
-    if card is not None:
+    if o.card is not None:
         from planner_ft.report.card import write_card
 
-        count = write_card(card, runs)
-        show(f"{card / 'README.md'}: {count} measured figures")
+        show(f"{o.card / 'README.md'}: {write_card(o.card, o.runs)} measured figures")
         return
-    if out is None and len(runs) > 1:
+    if o.out is None and len(o.runs) > 1:
         raise PlannerError("--out is missing: with several runs, name a folder for the report")
     from planner_ft.report.write import write_report
 
-    target, data = out or runs[0], options.pop("data") or ()
+    target, how = o.out or o.runs[0], o.take("overwrite", "title", "pictures")
     with alone(target, "--out", "a report"):
-        written = write_report(runs, target, data=data, **options)
+        written = write_report(o.runs, target, data=o.data or (), **how)
     counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
     show(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")

@@ -4,67 +4,45 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from planner_ft.cli.options import command, given
+from planner_ft.cli.options import Options, command
 from planner_ft.cli.progress import interruptible, resume_command
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
+TRAINING = ("recipe", "seed", "sampling", "without", "goto", "resume", "overwrite")
+BENCH = ("goto", "episodes", "seed", "out", "overwrite")
+
 
 @command
-def skill(
-    action: str,
-    name: str,
-    recipe: str = "ours",
-    out: Path | None = None,
-    seed: int = 0,
-    iterations: int | None = None,
-    environments: int | None = None,
-    sampling: str = "uniform",
-    without: str | None = None,
-    goto: Path | None = None,
-    policy: list[Path] | None = None,
-    episodes: int = 20,
-    resume: bool = False,
-    overwrite: bool = False,
-) -> None:
+def skill(o: Options) -> None:
     """Train a skill, or measure it beside its baselines."""
-    if action not in ("train", "bench"):
-        raise PlannerError(f"plannerft skill {action}: must be train or bench")
-    if action == "bench":
-        _bench(name, policy or [], goto, episodes, seed, out, overwrite)
-        return
+    if o.action == "train":
+        _train(o)
+    elif o.action == "bench":
+        _bench(o)
+    else:
+        raise PlannerError(f"plannerft skill {o.action}: must be train or bench")
+
+
+def _train(o: Options) -> None:
     from planner_ft.skills.training import SkillTraining, train_skill
 
-    changes = given({"iterations": iterations, "environments": environments}, *_SETTINGS)
-    folder = out or Path("skills") / name
-    request = SkillTraining(
-        *(name, folder, recipe, seed, sampling, without, goto, changes, resume, overwrite)
-    )
+    folder, changes = o.out or Path("skills") / o.name, o.given("iterations", "environments")
+    request = SkillTraining(o.name, folder, changes=changes, **o.take(*TRAINING))
     with interruptible(lambda: f"continue with: {resume_command()}") as report:
         train_skill(request, report)
     show(f"{folder}: policy.safetensors with card, manifest and log.jsonl")
-    show(f"next: plannerft skill bench {name} --policy {folder}")
+    show(f"next: plannerft skill bench {o.name} --policy {folder}")
 
 
-_SETTINGS = ("iterations", "environments")
-
-
-def _bench(
-    name: str,
-    policies: list[Path],
-    goto: Path | None,
-    episodes: int,
-    seed: int,
-    out: Path | None,
-    overwrite: bool,
-) -> None:
+def _bench(o: Options) -> None:
     from planner_ft.skills.bench import SkillBench, bench_skill
     from planner_ft.support.tables import terminal_table
 
-    request = SkillBench(name, tuple(policies), goto, episodes, seed, out, overwrite)
+    request = SkillBench(o.name, tuple(o.policy or ()), **o.take(*BENCH))
     with interruptible() as report:
         tables = bench_skill(request, report)
     for table in tables:
         terminal().print(terminal_table(table))
-    if out:
-        show(f"{out}: table.md, table.csv, episodes.json and manifest.json")
+    if o.out:
+        show(f"{o.out}: table.md, table.csv, episodes.json and manifest.json")

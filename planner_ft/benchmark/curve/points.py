@@ -39,7 +39,7 @@ def read_points(curve: Curve) -> list[Point]:
     """The figures of every size, smallest first, from the units' benchmarks."""
     found: dict[int, list[Scores]] = {}
     for unit in curve.units:
-        results, _record = folder.read_results(curve.folder(unit) / "bench")
+        results, _record = folder.read_results(unit.folder / "bench")
         found.setdefault(unit.size, []).extend(by_system(results.scores).values())
     return [_point(size, runs) for size, runs in sorted(found.items())]
 

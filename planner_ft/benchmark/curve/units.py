@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import shutil
-import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -13,33 +12,19 @@ from typing import Any
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.suite.session import POLL
-from planner_ft.benchmark.suite.units import Process, arguments
+from planner_ft.benchmark.units import UNIT, State, Unit, Units, arguments
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.decoding.configurations import STRENGTHS, parse_configuration
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.files import read_json, sha256_file, write_json, write_jsonl
-from planner_ft.support.resources import clock
 from planner_ft.training.output import differing
 from planner_ft.training.request import TrainRequest, refusal
 from planner_ft.training.samples import Split, read_split
 
-BEGUN, RUNS, DONE, RESULT = "curve.json", "runs", "unit.json", "learning_curve.json"
+BEGUN, RUNS, RESULT = "curve.json", "runs", "learning_curve.json"
 TESTED = 4
 """A benchmarked sample takes about as long as training on this many."""
-
-
-@dataclass(frozen=True)
-class Unit:
-    """Training on `size` samples (0: none) with a seed, and the benchmark of the adapter."""
-
-    size: int
-    seed: int
-
-    @property
-    def name(self) -> str:
-        return f"{self.size} samples, seed {self.seed}" if self.size else "0 samples"
 
 
 @dataclass(frozen=True)
@@ -57,14 +42,24 @@ class Curve:
     settings: dict[str, Any]
 
     @property
-    def units(self) -> list[Unit]:
+    def units(self) -> list[Trained]:
         """Seed after seed, so that every size is there early."""
-        base = [Unit(0, 0)] if 0 in self.sizes else []
+        base = [self._unit(0, 0)] if 0 in self.sizes else []
         sizes = [size for size in self.sizes if size]
-        return base + [Unit(size, seed) for seed in range(self.seeds) for size in sizes]
+        return base + [self._unit(size, seed) for seed in range(self.seeds) for size in sizes]
 
-    def folder(self, unit: Unit) -> Path:
-        return self.out / RUNS / f"{unit.size}-{unit.seed}"
+    def _unit(self, size: int, seed: int) -> Trained:
+        name = f"{size} samples, seed {seed}" if size else "0 samples"
+        place, tests = self.out / RUNS / f"{size}-{seed}", len(self.data.samples)
+        trained = size * self.request.settings.epochs
+        known: dict[str, Any] = {
+            "weight": TESTED,
+            "before": trained,
+            "curve": self,
+            "size": size,
+            "seed": seed,
+        }
+        return Trained(name, place, tests, **known)
 
     def asked(self) -> dict[str, Any]:
         """Everything that the figures depend on but sizes and seeds, which may become more."""
@@ -112,9 +107,9 @@ def prepare(
 def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
     """Take the folder that the caller holds. Raises PlannerError, also for another curve."""
     out, asked = curve.out, curve.asked()
-    folder.check_folder(out, () if resume or overwrite else (BEGUN,), folder.GO_ON)
+    folder.check_folder(out, (BEGUN,), resume=resume, overwrite=overwrite)
     if overwrite and (out / BEGUN).is_file():
-        for done in (out / RUNS).glob(f"*/{DONE}"):  # first: a kill leaves no half that looks whole
+        for done in (out / RUNS).glob(f"*/{UNIT}"):  # first: a kill leaves no half that looks whole
             done.unlink()
         shutil.rmtree(out / RUNS, ignore_errors=True)
     elif (out / BEGUN).is_file() and (found := differing(read_json(out / BEGUN), asked)):
@@ -125,64 +120,54 @@ def begin(curve: Curve, *, resume: bool, overwrite: bool) -> None:
     write_json(out / BEGUN, asked)
 
 
-def run_units(curve: Curve, state: Callable[[int, str], None]) -> None:
+def run_units(curve: Curve, report: Callable[[State], None]) -> None:
     """Train and benchmark missing units, a process a step. Raises IncompleteError: go on later."""
-    units, begun = curve.units, time.monotonic()
-    open_units = (unit for unit in units if not (curve.folder(unit) / DONE).is_file())
-    left = {unit: _work(curve, unit) for unit in open_units}
-    total = sum(left.values())
-    for index, unit in enumerate(units, 1):
-        if unit not in left:
-            continue
-        ahead = sum(left.values())
-        pace = (time.monotonic() - begun) / (total - ahead) if ahead < total else None
-        rest = f", about {clock(pace * ahead)} left in all" if pace else ""
-        for step, (name, given) in enumerate(_commands(curve, unit)):
-            log = curve.folder(unit) / f"{name}.log"
-            with Process(given, log) as process:
-                while process.running():
-                    state(2 * index + step, f"({index}/{len(units)}) {unit.name}: {name}{rest}")
-                    time.sleep(POLL)
-                if problem := process.problem():
-                    kept = "what is finished is kept; go on with --resume"
-                    raise IncompleteError(f"{unit.name}: {name}: {problem} ({log}); {kept}")
-        write_json(curve.folder(unit) / DONE, {"size": unit.size, "seed": unit.seed})
-        del left[unit]
+    for unit, step, problem, log in Units(curve.units, report).run():
+        kept = "what is finished is kept; go on with --resume"
+        raise IncompleteError(f"{unit.name}: {step}: {problem} ({log}); {kept}")
 
 
-def _work(curve: Curve, unit: Unit) -> float:
-    return unit.size * curve.request.settings.epochs + TESTED * len(curve.data.samples)
+@dataclass(frozen=True)
+class Trained(Unit):
+    """Training on the first `size` samples (0: none) with a seed, and the benchmark after it."""
 
+    curve: Curve = field(kw_only=True)
+    size: int = field(kw_only=True)
+    seed: int = field(kw_only=True)
 
-def _commands(curve: Curve, unit: Unit) -> Iterator[tuple[str, list[str]]]:
-    """The steps of a unit: name and arguments of `plannerft`."""
-    request, here = curve.request, curve.folder(unit)
-    adapter, vocabulary = here / "adapter", str(request.vocabulary.source)
-    named = request.candidate.given_as
-    if unit.size:
-        # The samples of a size are the first ones of the same order: parts of each other.
-        records = list(curve.train.records)
-        Random(f"learning curve {unit.seed}").shuffle(records)
-        write_jsonl(here / "train.jsonl", records[: unit.size])
-        files: dict[str, Any] = {"level": request.level, "candidate": named}
-        files["vocabulary"] = vocabulary
-        files |= {"train-file": here / "train.jsonl", "output": adapter, "seed": unit.seed}
-        files |= {"validation-file": checked} if (checked := request.validation_file) else {}
-        flags = {**files, **curve.settings}.items()
-        given = [part for name, one in flags for part in (f"--{name.replace('_', '-')}", str(one))]
-        yield "train", ["train", *given, "--resume"]
-    weights = "lora" if unit.size else "base"
-    settings = BenchSettings(
-        request.level,
-        (named,),
-        (parse_configuration(f"{weights}+{curve.strength}").name,),
-        curve.data.path,
-        here / "bench",
-        curve.limit,
-        (str(adapter),) if unit.size else (),
-        vocabulary,
-        curve.request.settings.device,
-        quantization=curve.settings.get("quantization"),
-        latency_samples=0,
-    )
-    yield "bench", arguments(settings)
+    def is_finished(self) -> bool:
+        return (self.folder / UNIT).is_file()
+
+    def steps(self) -> Iterator[tuple[str, list[str], Path]]:
+        curve, request, here = self.curve, self.curve.request, self.folder
+        adapter, vocabulary = here / "adapter", str(request.vocabulary.source)
+        named = request.candidate.given_as
+        if self.size:
+            # The samples of a size are the first ones of the same order: parts of each other.
+            records = list(curve.train.records)
+            Random(f"learning curve {self.seed}").shuffle(records)
+            write_jsonl(here / "train.jsonl", records[: self.size])
+            files: dict[str, Any] = {"level": request.level, "candidate": named}
+            files["vocabulary"] = vocabulary
+            files |= {"train-file": here / "train.jsonl", "output": adapter, "seed": self.seed}
+            files |= {"validation-file": checked} if (checked := request.validation_file) else {}
+            flags = {**files, **curve.settings}.items()
+            given = [
+                part for name, one in flags for part in (f"--{name.replace('_', '-')}", str(one))
+            ]
+            yield "train", ["train", *given, "--resume"], here / "train.log"
+        weights = "lora" if self.size else "base"
+        settings = BenchSettings(
+            request.level,
+            (named,),
+            (parse_configuration(f"{weights}+{curve.strength}").name,),
+            curve.data.path,
+            here / "bench",
+            curve.limit,
+            (str(adapter),) if self.size else (),
+            vocabulary,
+            curve.request.settings.device,
+            quantization=curve.settings.get("quantization"),
+            latency_samples=0,
+        )
+        yield "bench", arguments(settings), here / "bench.log"
