@@ -1,4 +1,4 @@
-"""`plannerft bench` and `plannerft score`."""
+"""`plannerft bench`, `score`, `compare` and `report`."""
 
 from __future__ import annotations
 
@@ -79,6 +79,51 @@ def score(o: Options) -> None:
     _show(results, o.out)
 
 
+@command
+def compare(o: Options) -> None:
+    """Compare rows of finished runs."""
+    from planner_ft.benchmark import compare
+    from planner_ft.benchmark.folder import check_folder
+    from planner_ft.support.files import indented_json, write_json, write_text
+
+    if o.same and o.against is not None:
+        kinds = f"--same compares rows of the same name and --against {o.against} one row with all"
+        raise PlannerError(f"{kinds}: give one of them")
+    metrics = tuple(o.metric or compare.DEFAULT_METRICS)
+    how = (o.against, o.same, o.common, o.seed)
+    with alone(o.out, "--out", "a comparison"):
+        if o.out is not None:
+            check_folder(o.out, ("comparison.json",), AGAIN, overwrite=o.overwrite)
+        report = compare.compare_runs(compare.CompareSettings(tuple(o.runs), metrics, *how))
+        if o.out is not None:
+            for name, text in compare.render_report(report).items():
+                write_text(o.out / name, text)
+            write_json(o.out / "comparison.json", report.to_json())
+    if o.json:
+        show(indented_json(report.to_json()), end="")
+    else:
+        compare.print_report(report, terminal())
+
+
+@command
+def report(o: Options) -> None:
+    """Write the report of runs."""
+    if o.card is not None:
+        from planner_ft.report.card import write_card
+
+        show(f"{o.card / 'README.md'}: {write_card(o.card, o.runs)} measured figures")
+        return
+    if o.out is None and len(o.runs) > 1:
+        raise PlannerError("--out is missing: with several runs, name a folder for the report")
+    from planner_ft.report.write import write_report
+
+    target, how = o.out or o.runs[0], o.take("overwrite", "title", "pictures")
+    with alone(target, "--out", "a report"):
+        written = write_report(o.runs, target, data=o.data or (), **how)
+    counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
+    show(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")
+
+
 def _settings(o: Options) -> BenchSettings:
     """Settings from the flags that were given; the model of --endpoint is the candidate."""
     from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
@@ -143,8 +188,8 @@ def _check_file_alone(
 
 def _run_suite(o: Options) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
+    from planner_ft.benchmark.definitions import load_suite
     from planner_ft.benchmark.layout import print_warnings
-    from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
 
     suite, folder = load_suite(o.suite), o.out or Path("eval/runs") / o.suite.stem
@@ -175,8 +220,8 @@ def _run_suite(o: Options) -> None:
 
 
 def _run_gate(o: Options) -> None:
+    from planner_ft.benchmark.definitions import load_gate, run_gate
     from planner_ft.benchmark.folder import PREDICTIONS
-    from planner_ft.benchmark.gate import load_gate, run_gate
 
     gate, common = load_gate(o.gate), o.take("device", "seed", "batch_size", *RERUN)
     with tempfile.TemporaryDirectory() as temporary:

@@ -1,4 +1,4 @@
-"""`plannerft export`."""
+"""`plannerft export` and `plannerft push`."""
 
 from __future__ import annotations
 
@@ -78,3 +78,19 @@ def _export_model(given: dict[str, Any]) -> None:
         show(f"{done.gguf}: {done.gguf.stat().st_size / 1e6:.1f} MB")
     model = f"--level {settings.named_adapter[0]} --candidates {done.folder}"
     show(f"next: plannerft bench {model} --configurations base --quantization none")
+
+
+@command
+def push(o: Options) -> None:
+    """Upload an adapter or a data set to the Hugging Face Hub."""
+    from planner_ft.model_export.hub import prepare, upload
+
+    prepared = prepare(o.folder, o.repo, o.dataset)
+    for note in prepared.notes:
+        show(f"note: {note}", error=True)
+    if not o.dry_run:
+        show(upload(prepared, private=o.private))
+        return
+    for name, size in prepared.sizes():
+        show(f"{size:>12,} bytes  {name}")
+    show(f"{len(prepared.files)} files for {prepared.page} ({prepared.kind}); nothing was sent")

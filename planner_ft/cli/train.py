@@ -136,8 +136,7 @@ NAMED = ("level", "candidate", "vocabulary", "data_dir")
 @command
 def learning_curve(o: Options) -> None:
     """Train on growing parts of the training set and benchmark each."""
-    from planner_ft.benchmark.curve.points import SAMPLES, write_curve
-    from planner_ft.benchmark.curve.units import begin, prepare, run_units
+    from planner_ft.benchmark.curve import SAMPLES, begin, prepare, run_units, write_curve
     from planner_ft.report.pictures import write_figure
     from planner_ft.training.request import build_request
 

@@ -19,8 +19,16 @@ import pytest
 from typer.testing import CliRunner
 
 from planner_ft.benchmark import folder, units
-from planner_ft.benchmark.curve.points import Point, answer, compared, write_curve
-from planner_ft.benchmark.curve.units import Curve, begin, prepare, run_units
+from planner_ft.benchmark.curve import (
+    Curve,
+    Point,
+    answer,
+    begin,
+    compared,
+    prepare,
+    run_units,
+    write_curve,
+)
 from planner_ft.benchmark.results import Measured, System, assemble
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.cli.app import app

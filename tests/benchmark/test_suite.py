@@ -19,7 +19,7 @@ import typer
 from typer.testing import CliRunner
 
 from planner_ft.benchmark import units
-from planner_ft.benchmark.suite.definition import load_suite
+from planner_ft.benchmark.definitions import load_suite
 from planner_ft.benchmark.suite.run import combine, opened, run_suite
 from planner_ft.benchmark.units import Process, State, Units
 from planner_ft.cli.bench import bench

@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
+from planner_ft.benchmark.definitions import Part, Suite
 from planner_ft.benchmark.folder import RunRecord, measured_in, read_run
 from planner_ft.benchmark.plan import Plan, make_plan
 from planner_ft.benchmark.results import Measured, Results, assemble
 from planner_ft.benchmark.samples import BenchData, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.suite.definition import Part, Suite
 from planner_ft.benchmark.suite.tables import PartResults, write_suite
 from planner_ft.benchmark.units import UNIT, State, Unit, Units, arguments
 from planner_ft.candidates import Candidate, resolve_candidate

@@ -9,9 +9,9 @@ from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC, METRICS
+from planner_ft.benchmark.definitions import Part
 from planner_ft.benchmark.layout import lines
 from planner_ft.benchmark.results import Results, heading
-from planner_ft.benchmark.suite.definition import Part
 from planner_ft.support.files import read_text, write_json, write_text
 from planner_ft.support.tables import Table, TableRow, csv_text, latex_table, markdown_table, row
 
