@@ -28,6 +28,7 @@ from planner_ft.support import files
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import NOTHING, Table, csv_table, markdown_table, row
+from planner_ft.support.templates import text_template
 from planner_ft.training.output import differing
 from planner_ft.training.request import TrainRequest, refusal
 from planner_ft.training.samples import Split, read_split
@@ -234,37 +235,25 @@ def compared(found: Sequence[Point]) -> list[list[Comparison]]:
 
 
 def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], what: str) -> str:
-    """How many more samples (`what`) are worth writing, in words."""
-    if len(found) < 2:
-        return f"One size says nothing about more {what}; give --sizes at least two."
-    last, before, final = found[-1].size, found[-2].size, comparisons[-1]
-    step, tests = f"from {before} to {last} {what}", len(found[-1].scores)
-    if better := [one for one in final if one.verdict == "better"]:
-        gains = [(METRIC[one.paired.metric].heading, one.difference()) for one in better]
-        brought = "; ".join(f"{name} {replace(one, mark='').plain()}" for name, one in gains)
-        return (
-            f"Still rising: {step} brought {brought}. {last - before} more"
-            " are worth writing: they bring about as much if the curve goes on as it is, less if it"
-            " flattens."
-        )
-    if any(one.verdict == "worse" for one in final):
-        return f"Falling: {step} made plans worse. Check the labels before writing more {what}."
-    enough = next(
+    """How many more samples (`what`) are worth writing, in words (templates/curve.txt.j2)."""
+    final = comparisons[-1] if comparisons else ()
+    better = [one for one in final if one.verdict == "better"]
+    gains = [(METRIC[one.paired.metric].heading, one.difference()) for one in better]
+    as_good = (
         point.size
         for point, pairs in zip(found, comparisons, strict=False)
         if not any(one.verdict == "better" for one in pairs)
     )
-    if all(one.verdict == "equal" for one in final):
-        return (
-            f"Flat: {step} changed nothing, and {enough} do what {last} do. No more {what} like"
-            " these are worth writing; other kinds may be: read which of the test set fail."
-        )
-    gain = max(100 * (one.paired.difference.high or 0) for one in final)
-    return (
-        f"Open: {step} no gain is seen ({enough} are not told apart from {last}), but {tests} test"
-        f" {what} leave room for one of up to {gain:.0f} points. Test on more of them, or with more"
-        " --seeds, before writing more to train on."
+    text = text_template("planner_ft.benchmark", "curve.txt.j2").render(
+        what=what,
+        sizes=[point.size for point in found],
+        tests=len(found[-1].scores),
+        gains=[f"{name} {replace(one, mark='').plain()}" for name, one in gains],
+        verdicts=list(dict.fromkeys(one.verdict for one in final)),
+        enough=next(as_good, None),
+        room=max((100 * (one.paired.difference.high or 0) for one in final), default=0),
     )
+    return text.strip()
 
 
 def curve_table(found: Sequence[Point], what: str) -> Table:

@@ -14,10 +14,10 @@ from planner_ft.benchmark.contrasts import contrast_notes, marks
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
+from planner_ft.support.templates import text_template
 from planner_ft.vocabulary.plans import Level
 
 if TYPE_CHECKING:
-    from jinja2 import Template
     from rich.console import Console
 
 FOLDER = Path(__file__).parent / "published"
@@ -128,21 +128,13 @@ def notes(results: Results) -> list[str]:
         "systems": {one.system.candidate: one.system for one in results.rows}.values(),
         "trained_on": trained_on,
     }
+    template = text_template("planner_ft.benchmark", "notes.txt.j2")
     of_data, of_rows = (
-        filter(str.strip, _template().render(part=part, **about).split("\n"))
+        filter(str.strip, template.render(part=part, **about).split("\n"))
         for part in ("data", "rows")
     )
     compared = contrast_notes(results.contrasts, results.baseline_notes)
     return list(dict.fromkeys([*of_data, *compared, *of_rows]))
-
-
-@functools.cache
-def _template() -> Template:
-    from jinja2 import Environment, PackageLoader
-
-    loader = PackageLoader("planner_ft.benchmark")
-    environment = Environment(loader=loader, trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template("notes.txt.j2")
 
 
 def trained_on(one: Row) -> str:

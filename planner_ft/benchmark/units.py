@@ -135,9 +135,10 @@ class Units:
 
     def _left(self, index: int, before: float, seconds: float) -> float | None:
         """Seconds for the work that is left, at the pace of what was done since the beginning."""
-        coming = [one for one in self.units[index:] if one.name not in self.finished]
-        ahead = sum(max(0.0, one.work - one.done()) for one in coming)
-        made = sum(one.done() for one in self.units) - before
+        done = [(one, one.done()) for one in self.units]
+        coming = [(one, so_far) for one, so_far in done[index:] if one.name not in self.finished]
+        ahead = sum(max(0.0, one.work - so_far) for one, so_far in coming)
+        made = sum(so_far for _one, so_far in done) - before
         return seconds * ahead / made if made > 0 else None
 
 
