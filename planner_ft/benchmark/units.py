@@ -1,5 +1,5 @@
-"""Units of work that are processes of their own, one after the other: finished ones are left as they
-are, a failure is named, and the time left is said. Suites and learning curves are lists of them.
+"""Units of work, a process each and one after the other: finished ones are left as they are, a
+failure is named, and the time left is said. Suites and learning curves are lists of them.
 """
 
 from __future__ import annotations
