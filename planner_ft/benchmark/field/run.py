@@ -6,7 +6,7 @@ Plans are written as they are made; all figures are made from what is written.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -64,12 +64,13 @@ class Judged:
 
 @dataclass(frozen=True)
 class Row:
-    """All cases in one configuration of a candidate."""
+    """All cases in one configuration of a candidate; `agents` are what both were made of."""
 
     candidate: str
     configuration: str
     vocabulary: Vocabulary
     judged: tuple[Judged, ...] = ()
+    agents: Record = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -228,31 +229,28 @@ def run_cases(
     check_folder(out, bench.files, resume=resume, overwrite=overwrite)
     if overwrite:
         clear(out, bench.files)
-    rows, used = [], Record()
-    data = [vocabulary.sha256, *map(sha256_file, files)]
+    rows = [_row(planner) for planner in planners]
+    data = [bench.kind, vocabulary.sha256, *map(sha256_file, files)]
+    keys = {one.name: sha256_text(compact_json([one.agents, *data]))[:20] for one in rows}
     with RecordLog(out / PLANS) as log:
-        for planner in planners:
-            known = planner.agents.agents
-            configuration = known["mission"].configuration.name
-            named = Row(planner.settings.candidate, configuration, vocabulary)
-            record = used[named.name] = {of: one.record() for of, one in known.items()}
-            device = planner.agents.device.type
-            key = sha256_text(compact_json([bench.kind, device, record, *data]))[:20]
-            log.refuse_others({named.name: {key}})
+        log.refuse_others({name: {key} for name, key in keys.items()})
+        for index, (planner, one) in enumerate(zip(planners, tuple(rows), strict=True)):
+            missing = set(log.missing(keys[one.name], [case.id for case in cases]))
+            asked = [case for case in cases if case.id in missing]
             with planner:
                 plan = new_plan(planner, bench.kind == "both")
-                asked = [one for one in cases if log.missing(key, [one.id])]
-                made = ({"id": one.id, **named.named(), **asdict(plan(one))} for one in asked)
-                log.fill(key, made, progress, named.name, len(asked), len(cases))
-            found = log.of_key(key)
-            outcomes = [Outcome(found[one.id]["document"], found[one.id]["error"]) for one in cases]
-            rows.append(replace(named, judged=judge(cases, outcomes, vocabulary)))
+                made = ({"id": case.id, **one.named(), **asdict(plan(case))} for case in asked)
+                log.fill(keys[one.name], made, progress, one.name, len(asked), len(cases))
+            found = log.of_key(keys[one.name])
+            lines = (found[case.id] for case in cases)
+            outcomes = [Outcome(line["document"], line["error"]) for line in lines]
+            rows[index] = replace(one, judged=judge(cases, outcomes, vocabulary))
     manifest = build_manifest(
         bench.kind,
         seed=None,
         configuration={"limit": limit, "vocabulary": vocabulary.named},
         inputs={str(path): path for path in files},
-        agents=used,
+        agents={one.name: one.agents for one in rows},
     )
     table = bench.table(rows)
     if SCORES in bench.files:
@@ -260,6 +258,14 @@ def run_cases(
     write_text(out / TABLE, markdown_table(table) + bench.below(rows))
     write_json(out / RESULTS, {"rows": [bench.record(one) for one in rows], "manifest": manifest})
     return table
+
+
+def _row(planner: Planner) -> Row:
+    """The row of a planner, before any case."""
+    known, device = planner.agents.agents, planner.agents.device.type
+    agents: Record = {of: {**one.record(), "device": device} for of, one in known.items()}
+    named = planner.settings.candidate, known["mission"].configuration.name
+    return Row(*named, planner.vocabulary, agents=agents)
 
 
 def judge(
