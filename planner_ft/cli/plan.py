@@ -51,7 +51,7 @@ def _plan(o: Options) -> PlanDocument:
     from planner_ft.document import build
     from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import check_area, load_vehicle
-    from planner_ft.document.warnings.command import other_language
+    from planner_ft.document.warnings.asked import other_language
     from planner_ft.planning.chart import read_area, read_places
     from planner_ft.planning.locations import parse_locations
     from planner_ft.planning.planner import Planner, check_command, read_command

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from planner_ft.document import apply
-from planner_ft.document.clearance import fence, structures, way_off, way_round
+from planner_ft.document.clearance import way_round
 from planner_ft.document.ontology import named_places
+from planner_ft.document.structures import fence, structures, way_off
 from planner_ft.document.track import track
 from tests.documents import USV, document, step, task
 

@@ -9,12 +9,13 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.document.warnings.warning import Warning, named, warning
+from planner_ft.document.track import Point
+from planner_ft.document.warnings.case import Case
+from planner_ft.document.warnings.kinds import Warning, warning
 from planner_ft.planning.shapes import SHARE, SLACK, shape_problem
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import is_number
 
-Point = tuple[float, float]
 LENGTH = "length"
 """The parameter of a pass."""
 MEASURES = ("m", "s", "m/s", "count")
@@ -22,31 +23,41 @@ MEASURES = ("m", "s", "m/s", "count")
 TURNS = ("turn-to", "turn-by")
 
 
-def performed_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
+def performed(case: Case) -> Iterator[Warning]:
     """One per task without a step that fits it, or whose waypoints are not those of its values.
 
     Waypoints that were added for clearance count with neither.
     """
-    for task in document["tasks"]:
-        yield from _nothing(task, vocabulary)
-        steps = task["skill_sequence"] or []
+    known = case.vocabulary
+    for task in case.tasks:
+        definition, steps = known.task[task["title"]], task["skill_sequence"] or []
+        for item in definition.parameters:
+            if item.unit in MEASURES and task["parameters"].get(item.name) == 0:
+                yield warning("not-performed", "nothing", task, item.name, name=item.name)
         # A search may go anywhere.
-        if not steps or task.get("stale") or task["title"] == vocabulary.locate:
+        if not steps or task.get("stale") or task["title"] == known.locate:
             continue
-        fitting = vocabulary.task[task["title"]].skills.get("navigation", ())
-        if not any(step["navigation_skill"]["name"] in fitting for step in steps):
-            text = f"{named(task)}: no step performs it; its steps do something else."
-            yield warning("not-performed", text, task)
-        elif problem := _geometry_problem(task, _waypoints(task, vocabulary), vocabulary):
-            yield warning("not-performed", f"{named(task)}: {problem}.", task)
+        names = [step["navigation_skill"]["name"] for step in steps]
+        if not {*names} & {*definition.skills.get("navigation", ())}:
+            yield warning("not-performed", "else", task)
+        elif problem := _problem(task, names, known):
+            yield warning("not-performed", "shape", task, problem=problem)
 
 
-def _nothing(task: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """A size, distance, time or count of a task that is nothing."""
-    for item in vocabulary.task[task["title"]].parameters:
-        if item.unit in MEASURES and task["parameters"].get(item.name) == 0:
-            text = f"{named(task)}: {item.name} is 0, with which nothing can be done."
-            yield warning("not-performed", text, task, item.name)
+def _problem(task: Mapping[str, Any], names: list[str], known: Vocabulary) -> str | None:
+    """How waypoints and turns of a task (`names`: its movements) differ from its values."""
+    pattern, points = known.task[task["title"]].pattern, _waypoints(task, known)
+    if pattern == "sectors" and is_number(count := task["parameters"].get("sectors")):
+        motions = [known.motion.of(name) for name in names]
+        turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
+        return f"it turns {turns} times for {count:g} sectors" if turns < count - 1 else None
+    length = task["parameters"].get(LENGTH)
+    if pattern == "pass" and is_number(length) and points:
+        pairs = itertools.combinations(points, 2)
+        run = max((math.dist(*pair) for pair in pairs), default=0.0)
+        if run < length * (1 - SHARE) - SLACK:
+            return f"its waypoints are {run:.3g} m apart, and its length is {length:g} m"
+    return shape_problem(task, points, known)
 
 
 def _waypoints(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
@@ -58,21 +69,3 @@ def _waypoints(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
         if names and index not in clearance:
             found.append((skill["parameters"][names[0]], skill["parameters"][names[1]]))
     return found
-
-
-def _geometry_problem(
-    task: Mapping[str, Any], points: list[Point], vocabulary: Vocabulary
-) -> str | None:
-    known, given = vocabulary.task[task["title"]], task["parameters"]
-    if known.pattern == "sectors" and is_number(count := given.get("sectors")):
-        names = [step["navigation_skill"]["name"] for step in task["skill_sequence"]]
-        motions = [vocabulary.motion.of(name) for name in names]
-        turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
-        return f"it turns {turns} times for {count:g} sectors" if turns < count - 1 else None
-    length = given.get(LENGTH)
-    if known.pattern == "pass" and is_number(length) and points:
-        pairs = itertools.combinations(points, 2)
-        run = max((math.dist(*pair) for pair in pairs), default=0.0)
-        if run < length * (1 - SHARE) - SLACK:
-            return f"its waypoints are {run:.3g} m apart, and its length is {length:g} m"
-    return shape_problem(task, points, vocabulary)

@@ -1,23 +1,108 @@
-"""The values of a plan, which facts of the command are compared with."""
+"""A plan with its command, read once for all checks."""
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.facts import Input, Number, Position, is_number, is_place, near
+from planner_ft.document.language import Clause, language, read_clauses
+from planner_ft.document.ontology import positions_of, rows_of
+from planner_ft.document.track import Track
+from planner_ft.document.warnings.kinds import Warning
+from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.numbers import read_numbers, rows_of_sizes
-from planner_ft.facts.places import read_positions
+from planner_ft.facts.places import read_positions, without_geographic
+from planner_ft.planning.frame import frame_of
+from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
+ROW, CORNERS = 3, 3
 FULL = 360.0
 STEM = 5
 LONGER = re.compile(r"[a-z]{4,}")
 """Words that say something, and the letters by which one is found again."""
-CORNERS = 3
+
+
+class Case:
+    """A revised plan document, its track, and what its command says.
+
+    `text` is the command in local metres, without geographic positions; `command` is as it was
+    typed. Places, numbers and clauses are those of `text`. Tasks have their `number` from 1.
+    """
+
+    def __init__(self, document: Mapping[str, Any], path: Track, vocabulary: Vocabulary) -> None:
+        self.document, self.path, self.vocabulary = document, path, vocabulary
+        self.tasks = [{**one, "number": at} for at, one in enumerate(document["tasks"], start=1)]
+        self.by_id = {task["id"]: task for task in self.tasks}
+        self.command: str = document["command"]
+        self.limits: list[dict[str, Any]] = document.get("limits", [])
+        self.vehicle: dict[str, Any] = document.get("vehicle") or {}
+        self.spoken = language(vocabulary)
+        self.words = self.spoken.words
+
+    @functools.cached_property
+    def source(self) -> Input:
+        """The facts of the command in local metres."""
+        return read_input({"prompt": frame_of(self.document).spoken}, self.vocabulary)
+
+    @functools.cached_property
+    def text(self) -> str:
+        return without_geographic(self.source.facts.text)
+
+    @functools.cached_property
+    def clauses(self) -> tuple[Clause, ...]:
+        return read_clauses(self.text, self.vocabulary)
+
+    @functools.cached_property
+    def typed(self) -> tuple[Clause, ...]:
+        """The clauses of the command as it was typed."""
+        return read_clauses(self.command, self.vocabulary)
+
+    @functools.cached_property
+    def numbers(self) -> list[Number]:
+        return list(read_numbers(self.text))
+
+    @functools.cached_property
+    def positions(self) -> list[Position]:
+        return positions_of(self.text)
+
+    @functools.cached_property
+    def rows(self) -> list[list[Position]]:
+        """At least ROW positions, one behind the other."""
+        return [row for row in rows_of(self.text, self.positions) if len(row) >= ROW]
+
+    @functools.cached_property
+    def plan(self) -> PlanValues:
+        return PlanValues(self.document, self.source)
+
+    @property
+    def texts(self) -> list[str]:
+        """Constraints and assumptions of the plan."""
+        return [*self.document.get("constraints", ()), *self.document.get("assumptions", ())]
+
+    def clause_at(self, place: int) -> Clause | None:
+        """The clause in which a place of the text is."""
+        return next((one for one in self.clauses if one.start <= place < one.end), None)
+
+    def wants(self, place: int) -> bool:
+        """Whether words at a place of the text are neither ruled out nor taken back."""
+        clause = self.clause_at(place)
+        return clause is None or (clause.wants(place) and not clause.corrected)
+
+
+def skills_of(task: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """(role, skill) of all steps of a task."""
+    return (pair for step in task.get("skill_sequence") or () for pair in step_skills(step))
+
+
+Check = Callable[[Case], Iterator[Warning]]
+
+
+# ---------------------------------------------------------------- values of the plan
 
 
 class PlanValues:
@@ -25,8 +110,7 @@ class PlanValues:
 
     def __init__(self, document: Mapping[str, Any], command: Input) -> None:
         tasks, limits = document["tasks"], document.get("limits", ())
-        steps = [step for task in tasks for step in task.get("skill_sequence") or ()]
-        skills = [skill for step in steps for _role, skill in step_skills(step)]
+        skills = [skill for task in tasks for _role, skill in skills_of(task)]
         given = [owner["parameters"] for owner in (*tasks, *skills)]
         own = [value for values in given for value in values.values()]
         gone = [(values["x"], values["y"]) for values in given if {"x", "y"} <= values.keys()]
