@@ -12,7 +12,7 @@ from __future__ import annotations
 import random
 from pathlib import Path
 
-from planner_ft.document.warnings.command import UNKNOWN
+from planner_ft.document.warnings.asked import UNKNOWN
 from planner_ft.facts import unknown_words
 from planner_ft.support.files import read_jsonl
 

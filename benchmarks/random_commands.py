@@ -1,10 +1,11 @@
 """Plans of random commands: nothing crashes, no place is invented, no number is lost in silence.
 
-    python benchmarks/random_commands.py [--count 1000]
+    python benchmarks/random_commands.py [--count 1000] [--batch 20] [--plans PLANS.jsonl]
 
 Commands are put together of mission words, numbers and clauses, a third of them shuffled. Places of
 tasks stand in the command, waypoints lie within the sizes of their task, every number is in the
-plan or in a warning (or numbers could not be read), tasks and steps are bounded.
+plan or in a warning (or numbers could not be read), tasks and steps are bounded. The agents answer
+a batch of commands at a time. With --plans documents are kept, and a later run goes on behind them.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -22,10 +24,12 @@ from planner_ft.document import build
 from planner_ft.document.track import place_of
 from planner_ft.document.warnings import NOTES
 from planner_ft.planning.planner import Planner
+from planner_ft.planning.result import Answer
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, iterate_jsonl
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import Level
 
 WORDS = """\
 go to|survey|circle|hold at|inspect|drift at|take a panorama at|map|run along|never enter|keep off|film
@@ -39,6 +43,7 @@ USV = load_vocabulary()
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 SLACK = 25.0
 """Metres round a place that stand-offs and the vehicle's own distances take."""
+NOT_YET = Answer("", None, ("not asked yet",), (), 1, 1, 0, 0.0)
 
 
 def random_command(rng: Random) -> tuple[str, list[tuple[str, float]]]:
@@ -96,23 +101,73 @@ def violations(
             yield "lost number", words
 
 
+class Ahead:
+    """Asks a planner's agents for many commands at once: what is asked is first only noted."""
+
+    def __init__(self, planner: Planner) -> None:
+        self.planner, self.ask_all = planner, planner.agents.ask_all
+        self.known, self.waiting = dict[str, Answer](), dict[str, tuple[Level, Any]]()
+        planner.agents.ask = self.ask  # type: ignore[method-assign]
+
+    def ask(self, level: Level, record: dict[str, Any]) -> Answer:
+        key = compact_json([level, record])
+        if key not in self.known:
+            self.waiting[key] = level, record
+        return self.known.get(key, NOT_YET)
+
+    def plans(self, commands: list[str]) -> list[dict[str, Any] | str]:
+        """The document of every command, or the refusal: of the mission, then of its tasks."""
+        made = list(map(self._plan, commands))
+        while self.waiting:
+            asked, self.waiting = self.waiting, {}
+            for level in {level for level, _record in asked.values()}:
+                own = {key: record for key, (of, record) in asked.items() if of == level}
+                self.known |= zip(own, self.ask_all(level, list(own.values())), strict=True)
+            made = list(map(self._plan, commands))
+        self.known.clear()
+        return made
+
+    def _plan(self, command: str) -> dict[str, Any] | str:
+        try:
+            return dict(build(self.planner.plan(command), self.planner.vocabulary))
+        except PlannerError as problem:
+            return str(problem)
+
+
+def judged(number: int, plan: dict[str, Any] | str, counts: Counter[str]) -> None:
+    """Count and print what is wrong with the plan of a command."""
+    command, numbers = random_command(Random(number))
+    if isinstance(plan, str):
+        counts["refused"] += 1
+        print(f"{number}: refused: {command}: {plan}", flush=True)
+        return
+    counts["without a warning"] += not plan["warnings"]
+    for kind, what in violations(command, numbers, plan):
+        counts[kind] += 1
+        print(f"{number}: {kind}: {what}: {command}", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000)
+    parser.add_argument("--batch", type=int, default=20)
+    parser.add_argument("--plans", type=Path)
     arguments = parser.parse_args()
-    counts = Counter[str]()
+    counts, done = Counter[str](), 0
+    if arguments.plans and arguments.plans.exists():
+        for _line, plan, _problem in iterate_jsonl(arguments.plans):
+            judged(done, plan, counts)
+            done += 1
     with Planner(PlanSettings()) as planner:
-        for number in range(arguments.count):
-            command, numbers = random_command(Random(number))
-            try:
-                plan = build(planner.plan(command), planner.vocabulary)
-            except PlannerError as problem:
-                print(f"refused: {command}: {problem}", flush=True)
-                continue
-            counts["without a warning"] += not plan["warnings"]
-            for kind, what in violations(command, numbers, dict(plan)):
-                counts[kind] += 1
-                print(f"{kind}: {what}: {command}", flush=True)
+        ahead = Ahead(planner)
+        for begin in range(done, arguments.count, arguments.batch):
+            numbers = range(begin, min(begin + arguments.batch, arguments.count))
+            plans = ahead.plans([random_command(Random(number))[0] for number in numbers])
+            for number, plan in zip(numbers, plans, strict=True):
+                judged(number, plan, counts)
+            if arguments.plans:
+                with arguments.plans.open("a", encoding="utf-8") as file:
+                    file.writelines(f"{compact_json(plan)}\n" for plan in plans)
     print(f"{arguments.count} commands: {dict(counts)}")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -81,3 +81,7 @@ MAIN: tuple[str, ...] = tuple(_RAW["first"]["main"])
 RIGHT: tuple[str, ...] = tuple(_RAW["first"]["right"])
 SECTIONS: dict[str, list[str]] = _RAW["sections"]
 """Names of metrics by the heading of their table."""
+Columns = Sequence[Sequence[Any]]
+"""Columns of figures: heading, place in a record (keys joined by dots), scale, decimals."""
+COLUMNS: dict[str, Columns] = _RAW["columns"]
+"""Columns of tables that are not of metrics, by table."""

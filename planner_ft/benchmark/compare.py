@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,12 +25,11 @@ from planner_ft.support.tables import (
     row,
     terminal_table,
 )
+from planner_ft.support.templates import text_template
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-SHOWN = 5
-"""Ids that a note names before it only counts the rest."""
 __all__ = ["DEFAULT_METRICS", "CompareSettings", "compare_runs", "print_report", "render_report"]
 
 CSV = (
@@ -49,6 +48,10 @@ class RunRow:
     scores: Scores
     missing: tuple[str, ...]
     is_baseline: bool
+
+    def knows(self, metric: Metric) -> bool:
+        """Whether any sample says something about the metric."""
+        return any(metric.terms(score) for scores in self.scores.values() for score in scores)
 
 
 @dataclass(frozen=True)
@@ -115,9 +118,8 @@ def compare_runs(settings: CompareSettings) -> Report:
             one = paired(metric, first.scores, second.scores, settings.seed)
             found.append((first.name, second.name, one))
     data = tuple(runs[path].data for path in settings.runs)
-    notes = dict.fromkeys(_notes(data, pairs, settings.asked))
-    level = runs[settings.runs[0]].level
-    return Report(settings, level, data, tuple(adjusted(found)), tuple(notes))
+    level, notes = runs[settings.runs[0]].level, _notes(data, pairs, settings.asked)
+    return Report(settings, level, data, tuple(adjusted(found)), notes)
 
 
 def run_rows(path: Path, results: Results) -> list[RunRow]:
@@ -187,34 +189,16 @@ def _named(rows: Sequence[RunRow], text: str) -> RunRow:
 
 
 def _notes(
-    data: Sequence[dict[str, Any]],
-    pairs: Sequence[tuple[RunRow, RunRow]],
-    metrics: Sequence[Metric],
-) -> Iterator[str]:
-    if len({str(one.get("sha256")) for one in data}) > 1:
-        unsure = "nothing says that the same id is the same sample"
-        yield f"The runs used different data files; samples are paired by id, and {unsure}."
-    for one in {one.name: one for pair in pairs for one in pair}.values():
-        if one.missing:
-            missing = f"no prediction for {_listed(one.missing)}"
-            yield f"{one.name}: {missing}, counted as empty outputs."
-    for first, second in pairs:
-        for one, other in ((first, second), (second, first)):
-            if absent := [name for name in one.scores if name not in other.scores]:
-                yield f"{other.name} lacks {_listed(absent)} of {one.name}: left out."
-        for metric in metrics:
-            if not (_knows(first, metric) and _knows(second, metric)):
-                pair = f"{second.name} against {first.name}"
-                yield f"{metric.name} of {pair} was not measured in both."
-
-
-def _knows(one: RunRow, metric: Metric) -> bool:
-    return any(metric.terms(score) for scores in one.scores.values() for score in scores)
-
-
-def _listed(names: Sequence[str]) -> str:
-    shown = f"{', '.join(names[:SHOWN])}{', ...' if len(names) > SHOWN else ''}"
-    return f"{len(names)} sample{'s' if len(names) > 1 else ''} ({shown})"
+    data: Sequence[dict[str, Any]], pairs: Sequence[tuple[RunRow, RunRow]], metrics: list[Metric]
+) -> tuple[str, ...]:
+    """What the runs lack (templates/comparison.txt.j2)."""
+    text = text_template("planner_ft.benchmark", "comparison.txt.j2").render(
+        files=len({str(one.get("sha256")) for one in data}),
+        rows={one.name: one for pair in pairs for one in pair}.values(),
+        pairs=pairs,
+        metrics=metrics,
+    )
+    return tuple(dict.fromkeys(filter(str.strip, text.split("\n"))))
 
 
 def render_report(report: Report) -> dict[str, str]:

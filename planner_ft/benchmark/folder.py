@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 RESULTS, SCORES, BASELINES = "results.json", "scores.jsonl", "baselines.jsonl"
 PREDICTIONS, LATENCY, PLANNING = "predictions.jsonl", "latency.jsonl", "planning.jsonl"
+PLANS = "plans.jsonl"
 RUN, REPORT = "run.json", "report.html"
 TABLES = ("table.md", "table.csv", "table.tex")
 SCORED = (RESULTS, SCORES, BASELINES, *TABLES)
@@ -34,11 +35,30 @@ ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
 OTHER = "give --overwrite to start anew, or another --out"
 GO_ON = "give --resume to go on, --overwrite to start anew, or another --out"
 Line = dict[str, Any]
+Progress = Callable[[str, int, int], None]
+"""Called with a label, how many are done and how many there are in all of that part of a run."""
 
 
-def check_folder(folder: Path, names: Sequence[str], hint: str) -> None:
-    """Make the folder. Raises PlannerError when it cannot be used or holds any of these files."""
-    if present := [name for name in names if (folder / name).exists()]:
+def silent(_label: str, _done: int, _total: int) -> None:
+    """No progress."""
+
+
+def check_folder(
+    folder: Path,
+    names: Sequence[str],
+    hint: str = GO_ON,
+    *,
+    resume: bool = False,
+    overwrite: bool = False,
+) -> None:
+    """Make the folder. Raises PlannerError when it cannot be used, or holds any of these files and
+    neither `resume` nor `overwrite` is given, or both are.
+    """
+    if resume and overwrite:
+        both = "--resume keeps former results and --overwrite removes them"
+        raise PlannerError(f"{both}: give one of them")
+    present = [name for name in names if (folder / name).exists()]
+    if present and not (resume or overwrite):
         raise PlannerError(f"{folder / present[0]}: results are there already; {hint}")
     files.make_folder(folder)
 
@@ -81,6 +101,30 @@ class RecordLog:
         """The records of a key by sample id."""
         return {sample: record for (known, sample), record in self.records.items() if known == key}
 
+    def missing(self, key: str, names: Iterable[str]) -> list[str]:
+        """Those of the sample ids that have no record of the key."""
+        done = self.of_key(key)
+        return [name for name in names if name not in done]
+
+    def fill(
+        self, key: str, made: Iterable[Line], report: Progress, label: str, left: int, total: int
+    ) -> None:
+        """Append records under the key as they are made: the `left` ones of `total` in all."""
+        report(label, total - left, total)
+        for done, record in enumerate(made, total - left + 1):
+            self.append({**record, "key": key})
+            report(label, done, total)
+
+    def refuse_others(self, keys: Mapping[str, Collection[str]]) -> None:
+        """Raise PlannerError for records of a system ("candidate configuration") with keys beside
+        its own: they were made with something else.
+        """
+        for record in self.records.values():
+            name = f"{record.get('candidate')} {record.get('configuration')}"
+            if record["key"] not in keys.get(name, {record["key"]}):
+                what = f"holds answers of {name} that are not of this run"
+                raise PlannerError(f"{self.path}: {what}; {OTHER}")
+
     def append(self, record: Line) -> None:
         """Write a record as one line, whole, at the end of the file."""
         self.records[record["key"], record["id"]] = record
@@ -97,6 +141,12 @@ class RecordLog:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def kept(path: Path) -> str:
+    """How many answers an interrupted run has left in its log."""
+    count = path.read_bytes().count(b"\n") if path.is_file() else 0
+    return f"{count} answers are kept in {path}"
 
 
 def _is_record(record: Any) -> bool:
@@ -137,11 +187,7 @@ def begin_run(plan: Plan, predictions: RecordLog) -> None:
     keys: dict[str, set[str]] = {}
     for job in plan.jobs:
         keys.setdefault(job.system.key, set()).add(job.key)
-    for record in predictions.records.values():
-        name = f"{record.get('candidate')} {record.get('configuration')}"
-        if record["key"] not in keys.get(name, {record["key"]}):
-            what = f"holds answers of {name} that are not of this run"
-            raise PlannerError(f"{predictions.path}: {what}; give --overwrite or another --out")
+    predictions.refuse_others(keys)
     own: dict[str, dict[str, Any]] = {
         "jobs": {job.name: job.parts for job in plan.jobs},
         "keys": {job.name: job.key for job in plan.jobs},

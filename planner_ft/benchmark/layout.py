@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import functools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,7 @@ from planner_ft.benchmark.contrasts import contrast_notes, marks
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
+from planner_ft.support.templates import text_template
 from planner_ft.vocabulary.plans import Level
 
 if TYPE_CHECKING:
@@ -118,55 +119,22 @@ def _figures(shown: Sequence[Row], metrics: Sequence[str]) -> list[TableRow]:
 
 
 def notes(results: Results) -> list[str]:
-    """What a reader must know to read the tables rightly."""
-    return list(dict.fromkeys([*_about_data(results), *_about_rows(results.rows)]))
-
-
-def _about_data(results: Results) -> Iterator[str]:
-    rows = results.rows
-    yield (
-        f"{results.level} level, n = {results.data['n']} samples of {results.data['path']}. In"
-        " brackets: 95 % intervals (rates: Wilson, n being the effective number of samples where"
-        " phrasings of one family agree; means: bootstrap, whole families resampled)."
+    """What a reader must know to read the tables rightly (templates/notes.txt.j2)."""
+    about = {
+        "results": results,
+        "timed": max((one.latency_n for one in results.rows), default=0),
+        "published": published_source(results.level) if shows_published(results) else "",
+        "grounded": any(one.system.configuration.endswith("+grounded") for one in results.rows),
+        "systems": {one.system.candidate: one.system for one in results.rows}.values(),
+        "trained_on": trained_on,
+    }
+    template = text_template("planner_ft.benchmark", "notes.txt.j2")
+    of_data, of_rows = (
+        filter(str.strip, template.render(part=part, **about).split("\n"))
+        for part in ("data", "rows")
     )
-    counted = "as hallucinated" if results.level == "mission" else "as not hallucinated"
-    yield (
-        f"Hallucination counts an output that does not parse {counted}, as the published table of"
-        " this level does; table.md has both readings."
-    )
-    if timed := max((one.latency_n for one in rows), default=0):
-        how = f"one query at a time after warm-up, mean over {timed} samples"
-        yield f"Latency: {how} on the machine in results.json."
-    if shows_published(results):
-        yield f"(published): figures of the {published_source(results.level)}; not measured here."
-    if any(one.system.configuration.endswith("+grounded") for one in rows):
-        yield (
-            "+grounded decodes with the reader that groundedness is scored with: its share of"
-            " values that somebody gave is 100 % by construction."
-        )
-    yield from contrast_notes(results.contrasts, results.baseline_notes)
-
-
-def _about_rows(rows: Sequence[Row]) -> Iterator[str]:
-    for system in {one.system.candidate: one.system for one in rows}.values():
-        if system.pretrained:
-            what = "pretrained on synthetic plans of this vocabulary"
-            yield f"{system.label} was {what}: its Base figures are not those of a general model."
-        if system.is_standin:
-            why = "its figures say nothing about the real candidate"
-            yield f"{system.label} is a tiny, randomly initialised model: {why}."
-    for one in rows:
-        cut, failed = (one.finish_reasons.get(reason) for reason in ("length", "error"))
-        if one.system.seen:
-            yield trained_on(one)
-        if n := len(one.missing):
-            missing = f"{n} of {one.n} samples have no prediction"
-            yield f"{one.name}: {missing} and count as empty outputs."
-        if cut:
-            yield f"{one.name}: {cut} of {one.n} outputs were cut at the token limit."
-        if failed:
-            where = "count as empty outputs (see predictions.jsonl)"
-            yield f"{one.name}: {failed} of {one.n} samples failed and {where}."
+    compared = contrast_notes(results.contrasts, results.baseline_notes)
+    return list(dict.fromkeys([*of_data, *compared, *of_rows]))
 
 
 def trained_on(one: Row) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -114,10 +115,7 @@ class Plan:
 
     def by_candidate(self) -> list[list[Job]]:
         """The jobs of each candidate."""
-        groups: dict[str, list[Job]] = {}
-        for job in self.jobs:
-            groups.setdefault(job.candidate.name, []).append(job)
-        return list(groups.values())
+        return [list(jobs) for _name, jobs in groupby(self.jobs, lambda job: job.candidate.name)]
 
 
 def make_plan(settings: BenchSettings) -> Plan:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import PLANNING, Line, RecordLog
+from planner_ft.benchmark.folder import PLANNING, Line, Progress, RecordLog
 from planner_ft.benchmark.plan import Job, Plan
 from planner_ft.candidates.adapters import adapter_sha256, find_adapter
 from planner_ft.support.files import sha256_text
@@ -29,9 +29,7 @@ def planning_command(tasks: int, variant: int) -> str:
     return f"{text[0].upper()}{text[1:]}."
 
 
-def time_planning(
-    plan: Plan, jobs: Sequence[Job], progress: Callable[[str, int, int], None]
-) -> dict[str, Any]:
+def time_planning(plan: Plan, jobs: Sequence[Job], progress: Progress) -> dict[str, Any]:
     """Time the missing ones of the candidate's `planning_samples` commands for each number of
     tasks, into planning.jsonl; no other model is loaded then. Returns, for run.json, the key of
     each configuration's lines and why one could not be timed (it has no adapter of the Task Agent).
@@ -51,12 +49,10 @@ def time_planning(
                 continue
             digest = adapter_sha256(adapter) if adapter else None
             key = keys[job.configuration.name] = sha256_text(f"{job.key} {digest}")[:20]
-            done = log.of_key(key)
-            missing = {name: text for name, text in wanted.items() if name not in done}
-            for index, line in enumerate(_timed(plan, job, adapter, missing), 1):
-                log.append({**line, "key": key})
-                left = len(missing) - index
-                progress(f"{job.name}: planning time", len(wanted) - left, len(wanted))
+            missing = {name: wanted[name] for name in log.missing(key, wanted)}
+            if missing:
+                how = progress, f"{job.name}: planning time", len(missing), len(wanted)
+                log.fill(key, _timed(plan, job, adapter, missing), *how)
     return {"planning_keys": keys, "planning_problem": problem}
 
 
@@ -65,8 +61,6 @@ def _timed(
 ) -> Iterator[Line]:
     from planner_ft.planning import Planner
 
-    if not commands:
-        return
     shared = ("vocabulary", "device", "quantization")
     settings: dict[str, Any] = {name: getattr(plan.settings, name) for name in shared}
     settings |= {"mission_adapter": job.adapter, "task_adapter": task_adapter}

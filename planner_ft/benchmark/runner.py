@@ -4,29 +4,22 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
-from planner_ft.benchmark.folder import Line, RecordLog
+from planner_ft.benchmark.folder import Line, Progress, RecordLog, silent
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.planning_time import time_planning
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.sources import AnswerSource, Fields, open_source
+from planner_ft.benchmark.sources import AnswerSource, open_source
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.ranks import Ranks
 from planner_ft.vocabulary.outputs import parse_output
-
-Progress = Callable[[str, int, int], None]
-"""Called with a label, queries done and queries in all of that part of the run."""
-
-
-def _silent(_label: str, _done: int, _total: int) -> None:
-    pass
 
 
 @dataclass(frozen=True)
@@ -39,53 +32,68 @@ class _Run:
     predictions: RecordLog
     latencies: RecordLog | None = None
 
-    def candidate(self, jobs: list[Job]) -> None:
+    def every_candidate(self) -> None:
+        """Make this process's share of all answers, candidate by candidate."""
+        for jobs in self.plan.by_candidate():
+            self._candidate(jobs)
+            if self.latencies is not None and self.plan.settings.planning_samples:
+                costs = time_planning(self.plan, jobs, self.progress)
+                folder.add_costs(self.plan.settings.folder, jobs[0].candidate.name, costs)
+            self.ranks.wait()
+
+    def _candidate(self, jobs: list[Job]) -> None:
         """Make this process's share of a candidate's answers; time queries; load it if need be."""
-        every, settings = self.plan.data.samples, self.plan.settings
-        timed = every[: settings.latency_samples] if self.latencies is not None else ()
-        missing = [self.ranks.share(_without(every, self.predictions, job)) for job in jobs]
+        every, log = [sample.id for sample in self.plan.data.samples], self.latencies
+        timed = every[: self.plan.settings.latency_samples] if log else []
+        missing = [self.ranks.share(self.predictions.missing(job.key, every)) for job in jobs]
         # The repeats of a system take the time of the first.
         first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
-        untimed = [_without(timed, self.latencies, job) for job in first]
+        untimed = [log.missing(job.key, timed) if log else [] for job in first]
         needed = any(missing) or any(untimed)
         with contextlib.ExitStack() as loaded:
             if needed:
                 self.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
                 source = open_source(self.plan, jobs)
                 loaded.callback(source.release)
-                for job, samples in zip(jobs, missing, strict=True):
-                    self._answer(job, samples, source)
-            if self.latencies is None:
+                for job, names in zip(jobs, missing, strict=True):
+                    made = _answers(job, self._samples(names), source)
+                    how = self.progress, f"{job.name}: answers", len(names), len(every)
+                    self.predictions.fill(job.key, made, *how)
+            if log is None:
                 loaded.close()
             # Timing wants a quiet machine: the others have answered, and wait until it is over.
             self.ranks.wait()
             self.predictions.read()
-            if needed and self.latencies is not None:
-                for job, samples in zip(first, untimed, strict=True):
-                    self._time(job, samples, len(timed), source, self.latencies)
-                folder.add_costs(settings.folder, jobs[0].candidate.name, source.costs())
+            if needed and log is not None:
+                for job, names in zip(first, untimed, strict=True):
+                    if names:
+                        made = _timed(job, self._samples(names), source)
+                        how = self.progress, f"{job.name}: latency", len(names), len(timed)
+                        log.fill(job.key, made, *how)
+                folder.add_costs(self.plan.settings.folder, jobs[0].candidate.name, source.costs())
 
-    def _answer(self, job: Job, samples: list[Sample], source: AnswerSource) -> None:
-        """Record answers as they come."""
-        label, total = f"{job.name}: answers", len(self.plan.data.samples)
-        before = total - len(samples)
-        self.progress(label, before, total)
-        for done, (index, answer) in enumerate(source.answers(job, samples), before + 1):
-            self.predictions.append(_prediction(job, samples[index], answer))
-            self.progress(label, done, total)
+    def _samples(self, names: Sequence[str]) -> list[Sample]:
+        wanted = set(names)
+        return [sample for sample in self.plan.data.samples if sample.id in wanted]
 
-    def _time(
-        self, job: Job, samples: list[Sample], total: int, source: AnswerSource, log: RecordLog
-    ) -> None:
-        """Time queries one at a time."""
-        found = source.latencies(job, samples) if samples else ()
-        for done, (index, timed) in enumerate(found, total - len(samples) + 1):
-            log.append({"id": samples[index].id, **job.named(), **timed, "key": job.key})
-            self.progress(f"{job.name}: latency", done, total)
+
+def _answers(job: Job, samples: list[Sample], source: AnswerSource) -> Iterator[Line]:
+    """Lines of predictions.jsonl, as they come."""
+    for index, answer in source.answers(job, samples):
+        parsed = parse_output(answer["output"])
+        error = answer["error"] or parsed.problem
+        beside = {"parsed": parsed.plan, "error": error, "standin": job.candidate.is_standin}
+        yield {"id": samples[index].id, **job.named(), **answer, **beside}
+
+
+def _timed(job: Job, samples: list[Sample], source: AnswerSource) -> Iterator[Line]:
+    """Lines of latency.jsonl, one query at a time."""
+    for index, timed in source.latencies(job, samples):
+        yield {"id": samples[index].id, **job.named(), **timed}
 
 
 def run_bench(
-    settings: BenchSettings, progress: Progress = _silent, ranks: Ranks | None = None
+    settings: BenchSettings, progress: Progress = silent, ranks: Ranks | None = None
 ) -> Results:
     """Benchmark every candidate in every configuration and write results.json and the tables into
     `settings.folder`.
@@ -94,8 +102,8 @@ def run_bench(
     With several processes this is for the first, and `help_bench` for the others. Raises
     PlannerError.
     """
-    out, goes_on, ranks = settings.folder, settings.resume or settings.overwrite, ranks or Ranks()
-    folder.check_folder(out, () if goes_on else folder.ALL, folder.GO_ON)
+    out, ranks = settings.folder, ranks or Ranks()
+    folder.check_folder(out, folder.ALL, resume=settings.resume, overwrite=settings.overwrite)
     plan = make_plan(replace(settings, device=ranks.device(settings.device)))
     started = time.time()
     if settings.overwrite:
@@ -110,12 +118,7 @@ def run_bench(
         ranks.wait()
         # The others read the answers that are there: every share is cut from the same list.
         ranks.wait()
-        for jobs in plan.by_candidate():
-            _Run(plan, ranks, progress, predictions, latencies).candidate(jobs)
-            if settings.planning_samples:
-                costs = time_planning(plan, jobs, progress)
-                folder.add_costs(out, jobs[0].candidate.name, costs)
-            ranks.wait()
+        _Run(plan, ranks, progress, predictions, latencies).every_candidate()
         took = {"seconds": round(time.time() - started, 1), "reused_predictions": reused}
         results = _results(plan, took)
         folder.write_results(out, results)
@@ -141,22 +144,7 @@ def help_bench(settings: BenchSettings, ranks: Ranks) -> None:
     ranks.wait()
     with RecordLog(settings.folder / folder.PREDICTIONS) as predictions:
         ranks.wait()
-        for jobs in plan.by_candidate():
-            _Run(plan, ranks, _silent, predictions).candidate(jobs)
-            ranks.wait()
-
-
-def _without(samples: Sequence[Sample], log: RecordLog | None, job: Job) -> list[Sample]:
-    """The samples of which the log holds nothing for this job."""
-    done = log.of_key(job.key) if log is not None else {}
-    return [sample for sample in samples if sample.id not in done]
-
-
-def _prediction(job: Job, sample: Sample, answer: Fields) -> Line:
-    parsed = parse_output(answer["output"])
-    error = answer["error"] or parsed.problem
-    beside = {"parsed": parsed.plan, "error": error, "standin": job.candidate.is_standin}
-    return {"id": sample.id, **job.named(), **answer, **beside, "key": job.key}
+        _Run(plan, ranks, silent, predictions).every_candidate()
 
 
 def _results(plan: Plan, took: dict[str, Any]) -> Results:
@@ -182,10 +170,3 @@ def _results(plan: Plan, took: dict[str, Any]) -> Results:
     )
     found = folder.measured_in(settings.folder, record, [job.name for job in plan.jobs])
     return assemble(plan.data, plan.vocabulary, found, seed=settings.seed, manifest=manifest)
-
-
-def resume_hint(path: Path) -> str:
-    """How many answers an interrupted run has left."""
-    predictions = path / folder.PREDICTIONS
-    count = predictions.read_bytes().count(b"\n") if predictions.is_file() else 0
-    return f"{count} answers are kept in {predictions}"

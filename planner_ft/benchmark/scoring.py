@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.benchmark.metrics import failures, names
 from planner_ft.benchmark.metrics.alignment import Alignment, Entry, align, plan_entries
 from planner_ft.benchmark.metrics.facts import KINDS, groundedness, slot_propagation
-from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
+from planner_ft.benchmark.metrics.names import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
 from planner_ft.confidence.choices import from_json
 from planner_ft.confidence.parts import parts

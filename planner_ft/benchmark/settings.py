@@ -157,7 +157,7 @@ class BenchSettings:
         if greedy and self.top_p != 1:
             yield f"--top-p {self.top_p:g}: greedy decoding samples nothing; {again}"
         if self.resume and self.overwrite:
-            yield "--resume keeps former predictions and --overwrite removes them: give one of them"
+            yield "--resume keeps former results and --overwrite removes them: give one of them"
         if self.planning_samples and not (self.level == "mission" and not self.endpoint and greedy):
             agents = "times both agents from the mission level on, here and greedily"
             yield f"--planning-samples {agents}: leave it out"

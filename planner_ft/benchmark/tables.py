@@ -11,13 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.benchmark import layout
-from planner_ft.benchmark.catalogue import MAIN, METRIC, RIGHT, SECTIONS
+from planner_ft.benchmark.catalogue import COLUMNS, MAIN, METRIC, RIGHT, SECTIONS, Columns
 from planner_ft.benchmark.contrasts import DECISIVE, Contrasts, baseline_name
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.paired import MARKS, Comparison, difference_cell, verdict
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.summary import QUANTILES
 from planner_ft.support.resources import memory_size
 from planner_ft.support.tables import (
     NOTHING,
@@ -36,29 +35,6 @@ COUNTED = (
 )
 """Parts of a breakdown that count pairs: their keys, their headings, and the word for nothing."""
 Figures = Mapping[str, Any]
-Columns = Sequence[tuple[str, str, float, int]]
-"""Columns of figures: heading, place in a record (keys joined by dots), scale, decimals."""
-COSTS: Columns = (
-    *((f"Latency {name} (s)", f"latency_s.{name}", 1, 2) for name, _share in QUANTILES),
-    ("First token (s)", "first_token_s", 1, 3),
-    ("Tokens/s", "tokens_per_s", 1, 0),
-    ("Load (s)", "load_s", 1, 1),
-    ("Adapter switch (s)", "adapter_swap_s", 1, 4),
-)
-CONFIDENCE: Columns = (
-    ("Calibration error ↓", "ece", 1, 3),
-    ("Area under risk-coverage ↓", "aurc", 1, 3),
-    ("of random order ↓", "of_random", 1, 2),
-    ("Wrong plans in the least sure tenth (%) ↑", "least_sure_tenth", 100, 0),
-    ("To approve at 99 % right (%) ↑", "approved_99", 100, 0),
-)
-GROUPS: Columns = (
-    ("F1", "f1", 1, 2),
-    *(
-        (METRIC[name].heading, name, 100, 0)
-        for name in ("exact_sequence", "parameters", "whole_plan", "strict_valid")
-    ),
-)
 
 
 def render_tables(results: Results) -> dict[str, str]:
@@ -112,8 +88,8 @@ def _cells(record: Figures, columns: Columns) -> list[Cell]:
     return cells
 
 
-def _heads(columns: Columns) -> list[str]:
-    return [heading for heading, *_ in columns]
+def _heads(table: str) -> list[str]:
+    return [heading for heading, *_ in COLUMNS[table]]
 
 
 def _failures(results: Results) -> Table:
@@ -183,9 +159,9 @@ def confidence_tables(rows: Sequence[Row]) -> Iterator[Table]:
             known = {**found, "of_random": found["aurc"] / by_chance if by_chance else None}
             how = "calibrated" if found["calibrated"] else "not calibrated"
             counts = str(found["n"]), str(found["wrong"])
-            body.append(row(one.name, how, *counts, *_cells(known, CONFIDENCE)))
+            body.append(row(one.name, how, *counts, *_cells(known, COLUMNS["confidence"])))
     if body:
-        yield Table("How sure", ("", "n", "wrong", *_heads(CONFIDENCE)), body, texts=1)
+        yield Table("How sure", ("", "n", "wrong", *_heads("confidence")), body, texts=1)
 
 
 def cost_tables(known: Mapping[str, Figures]) -> Iterator[Table]:
@@ -195,12 +171,12 @@ def cost_tables(known: Mapping[str, Figures]) -> Iterator[Table]:
     for name, costs in known.items():
         memory = costs.get("peak_memory_bytes")
         size = NOTHING if memory is None else memory_size(memory)
-        body.append(row(name, str(costs.get("n", 0)), *_cells(costs, COSTS), size))
+        body.append(row(name, str(costs.get("n", 0)), *_cells(costs, COLUMNS["costs"]), size))
         for entry in costs.get("planning", ()):
             text = f"{entry['seconds']['value']:.2f} (n = {entry['n']})"
             planning[name, str(entry["tasks"])] = Cell(text)
     if body:
-        yield Table("Cost", ("timed queries", *_heads(COSTS), "Peak memory"), body)
+        yield Table("Cost", ("timed queries", *_heads("costs"), "Peak memory"), body)
     if planning:
         most = max(int(tasks) for _name, tasks in planning)
         corner = "Seconds to plan a mission of m tasks, both agents; m ="
@@ -250,7 +226,7 @@ def repeat_tables(figures: Mapping[str, Figures]) -> Iterator[Table]:
         for name, found in shown.items()
     ]
     caption = "pass^k: all of k answers are right; pass@k: at least one of k is (pass@1 is pass^1)."
-    yield Table("Whole plan right (%)", _heads(columns), body, caption=caption)
+    yield Table("Whole plan right (%)", [heading for heading, *_ in columns], body, caption=caption)
 
 
 def change_tables(changes: Sequence[Figures]) -> Iterator[Table]:
@@ -284,6 +260,6 @@ def group_tables(figures: Sequence[Figures]) -> Iterator[Table]:
     body = []
     for entry in sorted(figures, key=lambda entry: str(entry["group"])):
         system = f"{entry['candidate']}, {entry['configuration']}"
-        body.append(row(entry["group"], system, str(entry["n"]), *_cells(entry, GROUPS)))
+        body.append(row(entry["group"], system, str(entry["n"]), *_cells(entry, COLUMNS["groups"])))
     if body:
-        yield Table("Group", ("System", "n", *_heads(GROUPS)), body, texts=1)
+        yield Table("Group", ("System", "n", *_heads("groups")), body, texts=1)

@@ -6,16 +6,13 @@ from typing import Annotated
 
 import typer
 
-from planner_ft.cli.bench import bench, score
+from planner_ft.cli.bench import bench, compare, report, score
 from planner_ft.cli.candidates import candidates, doctor
-from planner_ft.cli.compare import compare, report
 from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
-from planner_ft.cli.export import export
+from planner_ft.cli.export import export, push
 from planner_ft.cli.plan import plan
-from planner_ft.cli.push import push
 from planner_ft.cli.review import review, verify
-from planner_ft.cli.simulate import simulate
-from planner_ft.cli.skill import skill
+from planner_ft.cli.simulate import simulate, skill
 from planner_ft.cli.train import calibrate, learning_curve, train
 from planner_ft.support.terminal import show
 

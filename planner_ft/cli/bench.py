@@ -1,22 +1,20 @@
-"""`plannerft bench` and `plannerft score`."""
+"""`plannerft bench`, `score`, `compare` and `report`."""
 
 from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.cli.options import command, given, typed
-from planner_ft.cli.progress import interruptible, resume_command, status
+from planner_ft.cli.options import AGAIN, Options, command, typed
+from planner_ft.cli.progress import resume_command, status, working
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.results import Results
-    from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
-    from planner_ft.benchmark.suite.session import State
+    from planner_ft.benchmark.settings import BenchSettings
 
 RUN = (
     *("level", "candidates", "configurations", "data", "limit", "adapter", "quantization"),
@@ -25,39 +23,36 @@ RUN = (
 )
 """Options that say what is run; a suite or gate file says it itself."""
 SERVER = ("endpoint", "model", "api_key_env", "concurrency", "timeout", "retries")
-OUTPUT = "give --overwrite or another --out"
+RERUN = ("resume", "overwrite")
 
 
 @command
-def bench(**options: Any) -> None:
+def bench(o: Options) -> None:
     """Benchmark candidates, run a suite or gate file, or field cases."""
-    named, served = given(options, *RUN), given(options, *SERVER)
-    generation = {name: options[name] for name in ("device", "seed")}
-    generation["batch_size"] = _batch_size(options["batch_size"])
-    rerun = {name: options[name] for name in ("resume", "overwrite")}
-    out, cases, field = options["out"], options["cases"], options["field"]
-    suite, gate, report = options["suite"], options["gate"], not options["no_report"]
-    if cases and not field:
-        raise PlannerError(f"{cases[0]}: files stand behind --field; test data is given by --data")
-    if field or options["level"] == "both":
+    if o.cases and not o.field:
+        where = "files stand behind --field; test data is given by --data"
+        raise PlannerError(f"{o.cases[0]}: {where}")
+    try:
+        o.batch_size = None if o.batch_size == "auto" else int(o.batch_size)
+    except ValueError:
+        raise PlannerError(f"--batch-size {o.batch_size}: must be a number or auto") from None
+    named = o.given(*RUN, *SERVER)
+    if o.field or o.level == "both":
         from planner_ft.cli.field import run_whole
 
-        whole = named | served | ({"resume": True} if rerun["resume"] else {})
-        whole["device"], found = options["device"], (cases or []) if field else None
-        run_whole(found, out, whole, overwrite=rerun["overwrite"])
-    elif suite is not None:
-        _check_file_alone("suite", suite, named | served, ("limit", "latency_samples"))
-        how = {"processes": options["processes"], **rerun}
-        _run_suite(suite, out, generation | named, how, report=report)
-    elif gate is not None:
-        _check_file_alone("gate", gate, named | served)
-        _run_gate(gate, out, generation | rerun)
+        run_whole(o, named)
+    elif o.suite is not None:
+        _check_file_alone("suite", o.suite, named, ("limit", "latency_samples"))
+        _run_suite(o)
+    elif o.gate is not None:
+        _check_file_alone("gate", o.gate, named)
+        _run_gate(o)
     else:
-        _run(_settings(named, served, out=out, **generation, **rerun), report=report)
+        _run(_settings(o), report=not o.no_report)
 
 
 @command
-def score(**options: Any) -> None:
+def score(o: Options) -> None:
     """Score any system's outputs, or a bench run again."""
     from planner_ft.benchmark import folder
     from planner_ft.benchmark.samples import default_data, load_bench_data
@@ -65,10 +60,9 @@ def score(**options: Any) -> None:
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
-    o = SimpleNamespace(**options)
     with alone(o.out, "--out", "a benchmark"):
         if o.out is not None:
-            folder.check_folder(o.out, () if o.overwrite else folder.SCORED, OUTPUT)
+            folder.check_folder(o.out, folder.SCORED, AGAIN, overwrite=o.overwrite)
         if o.run is not None and o.predictions is None and o.level is None:
             results = score_run(o.run, o.data, seed=o.seed)
         elif o.level is not None and o.predictions is not None and o.run is None:
@@ -85,48 +79,85 @@ def score(**options: Any) -> None:
     _show(results, o.out)
 
 
-def _batch_size(text: str) -> int | None:
-    try:
-        return None if text == "auto" else int(text)
-    except ValueError:
-        raise PlannerError(f"--batch-size {text}: must be a number or auto") from None
+@command
+def compare(o: Options) -> None:
+    """Compare rows of finished runs."""
+    from planner_ft.benchmark import compare
+    from planner_ft.benchmark.folder import check_folder
+    from planner_ft.support.files import indented_json, write_json, write_text
+
+    if o.same and o.against is not None:
+        kinds = f"--same compares rows of the same name and --against {o.against} one row with all"
+        raise PlannerError(f"{kinds}: give one of them")
+    metrics = tuple(o.metric or compare.DEFAULT_METRICS)
+    how = (o.against, o.same, o.common, o.seed)
+    with alone(o.out, "--out", "a comparison"):
+        if o.out is not None:
+            check_folder(o.out, ("comparison.json",), AGAIN, overwrite=o.overwrite)
+        report = compare.compare_runs(compare.CompareSettings(tuple(o.runs), metrics, *how))
+        if o.out is not None:
+            for name, text in compare.render_report(report).items():
+                write_text(o.out / name, text)
+            write_json(o.out / "comparison.json", report.to_json())
+    if o.json:
+        show(indented_json(report.to_json()), end="")
+    else:
+        compare.print_report(report, terminal())
 
 
-def _settings(named: dict[str, Any], served: dict[str, Any], **common: Any) -> BenchSettings:
-    """Settings from the flags that were given."""
-    from planner_ft.benchmark.settings import BenchSettings
+@command
+def report(o: Options) -> None:
+    """Write the report of runs."""
+    if o.card is not None:
+        from planner_ft.report.card import write_card
+
+        show(f"{o.card / 'README.md'}: {write_card(o.card, o.runs)} measured figures")
+        return
+    if o.out is None and len(o.runs) > 1:
+        raise PlannerError("--out is missing: with several runs, name a folder for the report")
+    from planner_ft.report.write import write_report
+
+    target, how = o.out or o.runs[0], o.take("overwrite", "title", "pictures")
+    with alone(target, "--out", "a report"):
+        written = write_report(o.runs, target, data=o.data or (), **how)
+    counts = [sum(path.parent.name == name for path in written) for name in ("figures", "tables")]
+    show(f"{target}/: report.html, figures/ ({counts[0]} files), tables/ ({counts[1]} files)")
+
+
+def _settings(o: Options) -> BenchSettings:
+    """Settings from the flags that were given; the model of --endpoint is the candidate."""
+    from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
     from planner_ft.vocabulary.plans import check_level
 
-    values, server = _with_endpoint(named, served)
+    values, served = o.given(*RUN), o.given(*SERVER)
+    server = None
+    if served:
+        if "endpoint" not in served or "model" not in served:
+            wanted = "a server needs both --endpoint URL and --model NAME"
+            raise PlannerError(f"{typed(served)}: {wanted}")
+        if "candidates" in values:
+            places = "--candidates are loaded here and --endpoint is asked over the network"
+            raise PlannerError(f"{places}: give one of them")
+        server = EndpointSettings(served.pop("endpoint"), **served)
+        # Only the user knows whether a server's model was fine-tuned, and so needs no vocabulary.
+        values = {"configurations": "base"} | values | {"candidates": o.model.replace(",", " ")}
     if "level" not in values or "candidates" not in values:
         example = "plannerft bench --level mission --candidates embedded"
         raise PlannerError(f"bench needs --level and --candidates (or --gate FILE); try: {example}")
-    level, adapters = check_level(values.pop("level")), tuple(values.pop("adapter", ()))
+    values |= {"level": check_level(o.level), "adapters": tuple(values.pop("adapter", ()))}
     for name in {"candidates", "configurations"} & set(values):
-        values[name] = tuple(part.strip() for part in values[name].split(",") if part.strip())
-    return BenchSettings(level=level, adapters=adapters, endpoint=server, **values, **common)
+        values[name] = tuple(names(values[name]))
+    common = o.take("out", "device", "seed", "batch_size", *RERUN)
+    return BenchSettings(endpoint=server, **values, **common)
 
 
-def _with_endpoint(
-    named: dict[str, Any], served: dict[str, Any]
-) -> tuple[dict[str, Any], EndpointSettings | None]:
-    """The run's flags with --endpoint's model as candidate, and the server. Raises PlannerError."""
-    if not served:
-        return named, None
-    from planner_ft.benchmark.settings import EndpointSettings
-
-    if "endpoint" not in served or "model" not in served:
-        raise PlannerError(f"{typed(served)}: a server needs both --endpoint URL and --model NAME")
-    if "candidates" in named:
-        places = "--candidates are loaded here and --endpoint is asked over the network"
-        raise PlannerError(f"{places}: give one of them")
-    # Only the user knows whether a server's model was fine-tuned, and so needs no vocabulary.
-    model = {"candidates": served["model"].replace(",", " ")}
-    url = served.pop("endpoint")
-    return {"configurations": "base", **named, **model}, EndpointSettings(url, **served)
+def names(text: str | None) -> list[str]:
+    """Names that are separated by commas."""
+    return [part.strip() for part in (text or "").split(",") if part.strip()]
 
 
 def _run(settings: BenchSettings, *, report: bool) -> None:
+    from planner_ft.benchmark.folder import PREDICTIONS
     from planner_ft.benchmark.runner import help_bench, run_bench
     from planner_ft.support.ranks import join_ranks
 
@@ -134,9 +165,8 @@ def _run(settings: BenchSettings, *, report: bool) -> None:
     if not ranks.leads:
         help_bench(settings, ranks)
         return
-    with alone(settings.folder, "--out", "a benchmark"):
-        with interruptible(lambda: _kept(settings.folder)) as progress:
-            results = run_bench(settings, progress, ranks)
+    with working(settings.folder, PREDICTIONS) as progress:
+        results = run_bench(settings, progress, ranks)
         _show(results, settings.folder)
         if report:
             _report(settings.folder)
@@ -156,35 +186,28 @@ def _check_file_alone(
         raise PlannerError(f"--{kind} {path} says itself what is run; {way_out}")
 
 
-def _run_suite(
-    path: Path, out: Path | None, changes: dict[str, Any], how: dict[str, Any], *, report: bool
-) -> None:
+def _run_suite(o: Options) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
+    from planner_ft.benchmark.definitions import load_suite
     from planner_ft.benchmark.layout import print_warnings
-    from planner_ft.benchmark.suite.definition import load_suite
     from planner_ft.benchmark.suite.run import run_suite
 
-    if how["resume"] and how["overwrite"]:
-        problem = "--resume keeps former results and --overwrite removes them"
-        raise PlannerError(f"{problem}: give one of them")
-    suite = load_suite(path)
-    folder = out or Path("eval/runs") / path.stem
+    suite, folder = load_suite(o.suite), o.out or Path("eval/runs") / o.suite.stem
+    changes = o.take("device", "seed", "batch_size") | o.given("limit", "latency_samples")
     with (
         alone(folder, "--out", "a suite"),
-        status(lambda: f"go on with: {resume_command()}") as step,
+        status(lambda: f"go on with: {resume_command()}") as said,
     ):
-
-        def shown(state: State) -> None:
-            step(state.unit, _state_line(state))
-
-        parts = run_suite(suite, folder, changes, shown, **how)
+        how = o.take("processes", *RERUN)
+        parts = run_suite(
+            suite, folder, changes, lambda state: said(state.number, str(state)), **how
+        )
     show((folder / "table.md").read_text(encoding="utf-8"))
     for part in parts:
         print_warnings(part.results, terminal(stderr=True))
-    names = ", ".join(part.part.name for part in parts)
     files = "table.md, table.csv, table.tex, results.json"
-    show(f"{folder}/: {files}; a folder for each of {names}")
-    if report:
+    show(f"{folder}/: {files}; a folder for each of {', '.join(one.part.name for one in parts)}")
+    if not o.no_report:
         _report(folder)
     failed = [
         f"{entry['candidate']} {entry['configuration']} ({part.part.name})"
@@ -196,32 +219,16 @@ def _run_suite(
         raise IncompleteError(f"{problem}; the reasons are in {folder / 'table.md'}")
 
 
-def _state_line(state: State) -> str:
-    """The progress of a suite, in a line."""
-    from planner_ft.support.resources import clock
+def _run_gate(o: Options) -> None:
+    from planner_ft.benchmark.definitions import load_gate, run_gate
+    from planner_ft.benchmark.folder import PREDICTIONS
 
-    left = f", {clock(state.left)} left in all" if state.left is not None else ""
-    return f"({state.unit}/{state.units}) {state.name}: {state.done}/{state.total} queries{left}"
-
-
-def _run_gate(path: Path, out: Path | None, common: dict[str, Any]) -> None:
-    from planner_ft.benchmark.gate import load_gate, run_gate
-
-    gate = load_gate(path)
+    gate, common = load_gate(o.gate), o.take("device", "seed", "batch_size", *RERUN)
     with tempfile.TemporaryDirectory() as temporary:
-        target = out or Path(temporary) / "gate"
-        with (
-            alone(target, "--out", "a benchmark"),
-            interruptible((lambda: _kept(target)) if out else None) as progress,
-        ):
-            run_gate(gate, target, progress, lambda results: _show(results, out), **common)
-    show(f"{path}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
-
-
-def _kept(folder: Path) -> str:
-    from planner_ft.benchmark.runner import resume_hint
-
-    return f"{resume_hint(folder)}; go on with: {resume_command()}"
+        target = o.out or Path(temporary) / "gate"
+        with working(target, PREDICTIONS, keeps=o.out is not None) as progress:
+            run_gate(gate, target, progress, lambda results: _show(results, o.out), **common)
+    show(f"{o.gate}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
 
 
 def _report(folder: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.cli.options import command
+from planner_ft.cli.options import Options, command
 from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
@@ -20,26 +20,29 @@ ESTIMATES = (
 PAGE = "https://huggingface.co/REPOSITORY"
 GATED = f" (gated ones: first accept the licence at {PAGE} and run `hf auth login`)"
 OFFLINE = "Without a network, copy it to a sub-folder of its name in a folder that PLANNERFT_MODELS"
-FIGURES = ("weights", "train, GiB", "GPU, GB", "run, GiB", "GPU, GB")
-TIMES = ("mission, min", "task, h", "answer, s")
+FIGURES = (
+    *("weights", "train, GiB", "GPU, GB", "run, GiB", "GPU, GB"),
+    *("mission, min", "task, h", "answer, s"),
+)
 SHORTENED = (" Community", " License", " (non-commercial)")
 
 
 @command
-def candidates(names: list[str] | None = None, json: bool = False, markdown: bool = False) -> None:
+def candidates(o: Options) -> None:
     """List the models."""
     from planner_ft.candidates import all_candidates, resolve_candidate
     from planner_ft.candidates.diagnosis import describe
     from planner_ft.support.files import indented_json
 
-    chosen = [resolve_candidate(name) for name in names] if names else all_candidates()
+    chosen = [resolve_candidate(name) for name in o.names] if o.names else all_candidates()
     rows = [describe(candidate) for candidate in chosen]
-    if json:
+    if o.json:
         show(indented_json(rows), end="")
         return
-
-    if markdown:
-        show("\n".join([*_lines(rows), "", ESTIMATES]))
+    if o.markdown:
+        lines = [("candidate", *FIGURES), ("---", *["---:"] * len(FIGURES)), *map(_figures, rows)]
+        text = "\n".join(f"| {' | '.join(line)} |" for line in lines).replace("*", "\\*")
+        show(f"{text}\n\n{ESTIMATES}")
         return
     console = terminal(soft_wrap=True)
     console.print(_table(rows), soft_wrap=False)
@@ -57,13 +60,13 @@ def candidates(names: list[str] | None = None, json: bool = False, markdown: boo
 
 
 @command
-def doctor(json: bool = False) -> None:
+def doctor(o: Options) -> None:
     """Check this installation."""
     from planner_ft.candidates.diagnosis import diagnose
     from planner_ft.support.files import indented_json
 
     found = diagnose()
-    if json:
+    if o.json:
         show(indented_json({**found.sections, "warnings": found.warnings}), end="")
         return
     for title, entries in found.sections.items():
@@ -88,7 +91,7 @@ def _table(rows: list[dict[str, Any]]) -> Table:
 
     table = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
     table.add_column("candidate", no_wrap=True)
-    for heading in (*FIGURES, *TIMES):
+    for heading in FIGURES:
         table.add_column(heading.replace(", ", "\n"), justify="right", no_wrap=True)
     table.add_column("licence", overflow="fold")
     table.add_column("here", overflow="fold")
@@ -96,21 +99,13 @@ def _table(rows: list[dict[str, Any]]) -> Table:
         licence = row["licence"]
         for part in SHORTENED:
             licence = licence.replace(part, "")
-        figures = _count(row["parameters"]), *_memory(row["memory"]), *_times(row["times"])
-        table.add_row(row["name"], *figures, licence, _here(row))
+        table.add_row(*_figures(row), licence, _here(row))
     return table
 
 
-def _lines(rows: list[dict[str, Any]]) -> list[str]:
-    """The figures of the table in Markdown."""
-    head = ["candidate", *FIGURES, *TIMES]
-    cells = [
-        (row["name"], _count(row["parameters"]), *_memory(row["memory"]), *_times(row["times"]))
-        for row in rows
-    ]
-    bar = ["---", *["---:"] * (len(head) - 1)]
-    escaped = [[cell.replace("*", "\\*") for cell in line] for line in (head, bar, *cells)]
-    return [f"| {' | '.join(line)} |" for line in escaped]
+def _figures(row: dict[str, Any]) -> tuple[str, ...]:
+    """The name of a candidate and its FIGURES as cells."""
+    return row["name"], _count(row["parameters"]), *_memory(row["memory"]), *_times(row["times"])
 
 
 def _times(times: dict[str, Any] | None) -> tuple[str, str, str]:

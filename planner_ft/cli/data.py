@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
 
 import typer
 
-from planner_ft.cli.options import command
+from planner_ft.cli.options import Options, command
 from planner_ft.cli.progress import interruptible
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
@@ -16,14 +15,14 @@ from planner_ft.support.terminal import show, terminal
 
 
 @command
-def gen_data(**options: Any) -> None:
+def gen_data(o: Options) -> None:
     """Make the training data."""
     from planner_ft.data.generate import GenerationSettings, generate
     from planner_ft.prompts.text import chat_messages
     from planner_ft.vocabulary import load_vocabulary
 
-    out = options["out"] or load_vocabulary(options["vocabulary"]).data
-    settings = GenerationSettings(**options | {"out": out})
+    out = o.out or load_vocabulary(o.vocabulary).data
+    settings = GenerationSettings(**vars(o) | {"out": out})
     with alone(out, "--out", "gen-data"), interruptible(lines=False) as progress:
         results = generate(settings, progress, chat_messages)
     for result in results:
@@ -41,19 +40,17 @@ def _stage(stage: str, seconds: float, count: int) -> str:
 
 
 @command
-def validate(
-    files: list[Path], vocabulary: str = "usv", level: str | None = None, complete: bool = False
-) -> None:
+def validate(o: Options) -> None:
     """Check files of samples."""
     from planner_ft.data.validation import validate_file
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.plans import check_level
 
-    definition, checked = load_vocabulary(vocabulary), check_level(level) if level else None
+    definition, checked = load_vocabulary(o.vocabulary), check_level(o.level) if o.level else None
     status = 0
-    for path in files:
+    for path in o.files:
         try:
-            report = validate_file(path, definition, checked, complete=complete)
+            report = validate_file(path, definition, checked, complete=o.complete)
         except PlannerError as error:
             show(f"plannerft: {error}", error=True)
             status = 2
@@ -70,53 +67,48 @@ def validate(
 
 
 @command
-def vocabulary(
-    vocabulary: str = "usv",
-    schemas: Path | None = None,
-    docs: Path | None = None,
-    check: bool = False,
-) -> None:
+def vocabulary(o: Options) -> None:
     """Show the vocabulary, or write the schemas and the documentation page that derive from it."""
     from planner_ft.support.files import write_text
     from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.schema import stale_schemas, write_schemas
     from planner_ft.vocabulary.text import documentation_page, stale_page
 
-    definition = load_vocabulary(vocabulary)
-    if check:
-        folder, page = schemas or Path("schemas"), docs or Path("docs") / "vocabulary.md"
+    definition = load_vocabulary(o.vocabulary)
+    if o.check:
+        folder, page = o.schemas or Path("schemas"), o.docs or Path("docs") / "vocabulary.md"
         stale = [str(folder / name) for name in stale_schemas(folder, definition)]
         stale += [str(page)] if stale_page(page, definition) else []
         again = f"plannerft vocabulary --schemas {folder} --docs {page}"
         for name in stale:
             show(f"{name}: stale; write it again with {again}")
         raise typer.Exit(1 if stale else 0)
-    if schemas is not None:
-        for path in write_schemas(schemas, definition):
+    if o.schemas is not None:
+        for path in write_schemas(o.schemas, definition):
             show(str(path))
     text = documentation_page(definition)
-    if docs is not None:
-        write_text(docs, text)
-        show(str(docs))
-    elif schemas is None:
+    if o.docs is not None:
+        write_text(o.docs, text)
+        show(str(o.docs))
+    elif o.schemas is None:
         _show_page(text)
 
 
 @command
-def vehicle(action: str, name: str, out: Path | None = None) -> None:
+def vehicle(o: Options) -> None:
     """Begin a vehicle of one's own, or check it."""
     from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
 
-    if action == "new":
-        for path in new_vehicle(name, out):
+    if o.action == "new":
+        for path in new_vehicle(o.name, o.out):
             show(str(path))
-    elif action == "check":
-        parts = check_vehicle(name)
+    elif o.action == "check":
+        parts = check_vehicle(o.name)
         for part in parts:
             show(str(part))
         raise typer.Exit(any(part.state == "wrong" for part in parts))
     else:
-        raise PlannerError(f"plannerft vehicle {action}: must be new or check")
+        raise PlannerError(f"plannerft vehicle {o.action}: must be new or check")
 
 
 def _show_page(page: str) -> None:

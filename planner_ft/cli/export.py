@@ -1,15 +1,14 @@
-"""`plannerft export`."""
+"""`plannerft export` and `plannerft push`."""
 
 from __future__ import annotations
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import typer
 
-from planner_ft.cli.options import command, typed
+from planner_ft.cli.options import Options, command, typed
 from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.terminal import show
 
@@ -18,52 +17,35 @@ MODEL_FLAGS = ("candidate", "merge", "level", "adapter", "gguf", "outtype", "che
 
 
 @command
-def export(context: typer.Context, plan: Path | None = None, **options: Any) -> None:
+def export(o: Options) -> None:
     """Hand a plan over, or write a candidate as a model for other servers."""
-    every = (*PLAN_FLAGS, *MODEL_FLAGS, "vocabulary")
-    given = {name: options[name] for name in every if _is_given(context, name)}
-    _check_kind(plan, given)
-    shared = {name: options[name] for name in ("out", "overwrite")}
-    if plan is not None:
-        _export_plan(plan, {**given, **shared})
-        return
-    from planner_ft.model_export import ExportSettings
-    from planner_ft.vocabulary.plans import check_level
-
-    if options["out"] is None:
-        raise PlannerError("--out: a model needs a folder to be written to; give --out DIR")
-    model = {name: options[name] for name in (*MODEL_FLAGS, "vocabulary")} | shared
-    model |= {"level": check_level(options["level"]), "data": model.pop("check_data")}
-    _export_model(ExportSettings(**model))
-
-
-def _is_given(context: typer.Context, name: str) -> bool:
-    source = context.get_parameter_source(name)
-    return source is not None and source.name == "COMMANDLINE"
-
-
-def _check_kind(plan: Path | None, given: dict[str, Any]) -> None:
-    """Raise PlannerError for flags of a model beside a plan, and the reverse, and for neither."""
-    wrong = [name for name in (PLAN_FLAGS if plan is None else MODEL_FLAGS) if name in given][:1]
-    flag = typed(wrong)
-    if wrong and plan is not None:
-        problem = f"exports a model, and {plan} is a plan"
+    wrong = list(o.given(*(PLAN_FLAGS if o.plan is None else MODEL_FLAGS)))[:1]
+    flag, shared = typed(wrong), o.given("vocabulary", "out", "overwrite")
+    if wrong and o.plan is not None:
+        problem = f"exports a model, and {o.plan} is a plan"
         raise PlannerError(f"{flag}: {problem}; leave one of the two out")
     if wrong:
         way_out = f"name the plan's file, as in `plannerft export plan.json {flag} ...`"
         raise PlannerError(f"{flag}: hands a plan over; {way_out}")
-    if plan is None and "candidate" not in given:
+    if o.plan is not None:
+        _export_plan(o, shared)
+        return
+    if o.candidate is None:
         ways = "name a plan's file with --format, or a model with --candidate and --out"
         raise PlannerError(f"nothing to export: {ways}")
+    if o.out is None:
+        raise PlannerError("--out: a model needs a folder to be written to; give --out DIR")
+    _export_model(o.given(*MODEL_FLAGS) | shared)
 
 
-def _export_plan(plan: Path, given: dict[str, Any]) -> None:
+def _export_plan(o: Options, shared: dict[str, Any]) -> None:
     from planner_ft.exporters import parse_origin, run
 
-    formats, origin = tuple(given.pop("format", None) or ()), given.pop("origin", None)
-    given["sure"] = given.pop("origin_is_right", False)
-    place = parse_origin(origin) if origin is not None else None
-    asked = run.PlanExportSettings(plan, formats, place, **given)
+    place = parse_origin(o.origin) if o.origin is not None else None
+    how = o.given("log", "draft") | shared
+    asked = run.PlanExportSettings(
+        o.plan, tuple(o.format or ()), place, sure=o.origin_is_right, **how
+    )
     try:
         done = run.export_plan(asked)
     except QuestionError as error:
@@ -80,9 +62,13 @@ def _export_plan(plan: Path, given: dict[str, Any]) -> None:
         show(done[0].origin, error=True)
 
 
-def _export_model(settings: Any) -> None:
+def _export_model(given: dict[str, Any]) -> None:
+    from planner_ft.model_export import ExportSettings
     from planner_ft.model_export.run import export as run_export
+    from planner_ft.vocabulary.plans import check_level
 
+    named = {"level": check_level(given.pop("level", "mission"))}
+    settings = ExportSettings(data=given.pop("check_data", None), **given | named)
     done = run_export(settings, lambda line: show(line, error=True))
     check = done.check
     same = f"{check.same} of {check.count} answers as before"
@@ -92,3 +78,19 @@ def _export_model(settings: Any) -> None:
         show(f"{done.gguf}: {done.gguf.stat().st_size / 1e6:.1f} MB")
     model = f"--level {settings.named_adapter[0]} --candidates {done.folder}"
     show(f"next: plannerft bench {model} --configurations base --quantization none")
+
+
+@command
+def push(o: Options) -> None:
+    """Upload an adapter or a data set to the Hugging Face Hub."""
+    from planner_ft.model_export.hub import prepare, upload
+
+    prepared = prepare(o.folder, o.repo, o.dataset)
+    for note in prepared.notes:
+        show(f"note: {note}", error=True)
+    if not o.dry_run:
+        show(upload(prepared, private=o.private))
+        return
+    for name, size in prepared.sizes():
+        show(f"{size:>12,} bytes  {name}")
+    show(f"{len(prepared.files)} files for {prepared.page} ({prepared.kind}); nothing was sent")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.cli.options import typed
-from planner_ft.cli.progress import interruptible
-from planner_ft.support.alone import alone
+from planner_ft.cli.bench import names
+from planner_ft.cli.options import Options, typed
+from planner_ft.cli.progress import working
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
@@ -16,41 +16,41 @@ if TYPE_CHECKING:
     from planner_ft.benchmark.field.checks import Outcome
     from planner_ft.planning import Planner
 
-FLAGS = ("candidates", "configurations", "vocabulary", "quantization", "limit", "device")
+FLAGS = ("candidates", "configurations", "vocabulary", "quantization", "limit")
 """Options of `bench` that say what of whole plans is run."""
 PLACE = (100.0, 50.0)
 """Metres: where demands take a place to be that is open; the next ones lie further east."""
 
 
-def run_whole(
-    cases: list[Path] | None, out: Path | None, named: dict[str, Any], *, overwrite: bool
-) -> None:
-    """Run field cases, or without `cases` the demands of --data; print the table."""
-    also = () if cases is not None else ("level", "data")
-    if extra := [name for name in named if name not in (*FLAGS, *also)]:
-        flag = "--level both" if also else "--field"
-        raise PlannerError(f"{flag} plans whole commands; leave out {typed(extra)}")
+def run_whole(o: Options, named: dict[str, Any]) -> None:
+    """Run field cases, or with --level both the demands of --data; print the table. `named` are
+    the options that say what is run.
+    """
     from planner_ft.benchmark.field.cases import DEMANDS, case_files
-    from planner_ft.benchmark.field.run import TABLE, Demands, Field, run_cases
+    from planner_ft.benchmark.field.run import Demands, Field, run_cases
+    from planner_ft.benchmark.folder import PLANS
     from planner_ft.planning.settings import PlanSettings
     from planner_ft.support.tables import terminal_table
     from planner_ft.vocabulary import load_vocabulary
 
-    vocabulary = load_vocabulary(named.get("vocabulary", "usv"))
-    bench: Field | Demands = Demands() if cases is None else Field()
-    files = [named.get("data") or DEMANDS] if cases is None else case_files(cases)
-    known: dict[str, Any] = {name: named.get(name) for name in ("quantization", "device")}
+    also, flag = ((), "--field") if o.field else (("level", "data"), "--level both")
+    if extra := [name for name in named if name not in (*FLAGS, *also)]:
+        raise PlannerError(f"{flag} plans whole commands; leave out {typed(extra)}")
+    vocabulary = load_vocabulary(o.vocabulary or "usv")
+    bench: Field | Demands = Field() if o.field else Demands()
+    files = case_files(o.cases or ()) if o.field else [o.data or DEMANDS]
+    how = {"vocabulary": vocabulary.source, **o.take("quantization", "device")}
     agents = [
-        PlanSettings(candidate, configuration=one or None, vocabulary=vocabulary.source, **known)
-        for candidate in _names(named.get("candidates", "embedded"))
-        for one in _names(named.get("configurations")) or [""]
+        PlanSettings(candidate, configuration=one or None, **how)
+        for candidate in names(o.candidates or "embedded")
+        for one in names(o.configurations) or [""]
     ]
-    folder, limit = out or Path("eval/runs") / bench.kind, named.get("limit")
-    with alone(folder, "--out", "a benchmark"), interruptible() as progress:
-        how: dict[str, Any] = {"limit": limit, "overwrite": overwrite}
-        table = run_cases(bench, files, folder, vocabulary, agents, _Plan, progress, **how)
+    folder = o.out or Path("eval/runs") / bench.kind
+    with working(folder, PLANS) as progress:
+        asked = files, folder, vocabulary, agents, _Plan, progress
+        table = run_cases(bench, *asked, **o.take("limit", "resume", "overwrite"))
     terminal().print(terminal_table(table))
-    show(f"\n{folder}/: results.json, {bench.log}, {TABLE}")
+    show(f"\n{folder}/: {', '.join(bench.files)}")
 
 
 class _Plan:
@@ -81,7 +81,3 @@ class _Plan:
         parts = [] if self.everywhere else [document, *document["tasks"]]
         problems = [part["problems"][0] for part in parts if "problems" in part]
         return Outcome(document, problems[0] if problems else None)
-
-
-def _names(text: str | None) -> list[str]:
-    return [part.strip() for part in (text or "").split(",") if part.strip()]

@@ -1,22 +1,36 @@
-"""Options of the commands: help texts, and of long commands all but the arguments, in help.toml."""
+"""Options of the commands: names, kinds, defaults and help texts are all in help.toml."""
 
 from __future__ import annotations
 
 import functools
 import inspect
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, TypeVar, get_args
+from types import SimpleNamespace
+from typing import Annotated, Any, NamedTuple, get_args
 
 import typer
 
-Command = TypeVar("Command", bound=Callable[..., None])
+AGAIN = "give --overwrite or another --out"
 ABOUT, ARGUMENTS = "about", "arguments"
 LEAST = {"seed": 0, "processes": 1}
 """The smallest values of numbers, checked before a command begins."""
 KINDS: dict[str, Any] = {"text": str | None, "texts": list[str] | None, "int": int | None}
 KINDS |= {"path": Path | None, "paths": list[Path] | None, "float": float | None}
+
+
+class Options(SimpleNamespace):
+    """The options of a command by name; what has no default is None, a flag False."""
+
+    def take(self, *names: str) -> dict[str, Any]:
+        """Some of them."""
+        return {name: getattr(self, name) for name in names}
+
+    def given(self, *names: str) -> dict[str, Any]:
+        """Those of them that were given."""
+        values = self.take(*names).items()
+        return {name: one for name, one in values if one is not None and one is not False}
 
 
 class Help(NamedTuple):
@@ -27,39 +41,41 @@ class Help(NamedTuple):
     panel: str | None = None
 
 
-def command(function: Command) -> Command:
-    """Give a command its options and their help from help.toml."""
-    own = inspect.signature(function, eval_str=True).parameters.values()
-    parameters = [*own, *_options(_texts()["options"].get(function.__name__, ""))]
-    help_of = helps(function.__name__)
-    for index, item in enumerate(parameters):
-        if item.name in help_of and not hasattr(item.annotation, "__metadata__"):
-            parameters[index] = item.replace(annotation=_described(item, help_of[item.name]))
-    set_parameters(function, parameters)
-    function.__doc__ = _texts()[ABOUT].get(function.__name__, function.__doc__)
-    return function
+def command(function: Callable[[Options], None]) -> Callable[..., None]:
+    """The command that help.toml describes under the name of `function`."""
+
+    @functools.wraps(function)
+    def run(**values: Any) -> None:
+        function(Options(**values))
+
+    help_of, described = helps(function.__name__), []
+    for item in _options(_texts()["options"].get(function.__name__, "")):
+        annotation = _described(item, help_of[item.name])
+        described.append(item.replace(annotation=annotation))
+    set_parameters(run, described)
+    run.__doc__ = _texts()[ABOUT].get(function.__name__, function.__doc__)
+    return run
 
 
 def _options(text: str) -> Iterator[inspect.Parameter]:
-    """The options of a command in [options] of help.toml, None where they are not given."""
+    """The options of a command in [options] of help.toml."""
     for item in text.split():
         name, _, kind = item.partition(":")
         kind, has_default, default = kind.partition("=")
-        annotation, value = (KINDS[kind], None) if kind else (bool, False)
-        if has_default:
+        annotation: Any = KINDS[kind.removesuffix("!")] if kind else bool
+        value: Any = None if kind else False
+        if has_default or kind.endswith("!"):
             annotation = get_args(annotation)[0]
-            value = annotation(default)
+            value = annotation(default) if has_default else inspect.Parameter.empty
         yield inspect.Parameter(
             name, inspect.Parameter.KEYWORD_ONLY, default=value, annotation=annotation
         )
 
 
 def set_parameters(function: Callable[..., None], parameters: list[inspect.Parameter]) -> None:
-    """Have typer see these parameters, all given by name."""
-    known = [item for item in parameters if item.kind is not item.VAR_KEYWORD]
-    named = [item.replace(kind=inspect.Parameter.KEYWORD_ONLY) for item in known]
-    function.__signature__ = inspect.Signature(named)  # type: ignore[attr-defined]
-    function.__annotations__ = {item.name: item.annotation for item in named}
+    """Have typer see these parameters."""
+    function.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    function.__annotations__ = {item.name: item.annotation for item in parameters}
 
 
 def helps(name: str) -> dict[str, Help]:
@@ -99,11 +115,6 @@ def _described(item: inspect.Parameter, help: Help) -> Any:
             min=LEAST.get(item.name),
         ),
     ]
-
-
-def given(values: Mapping[str, Any], *names: str) -> dict[str, Any]:
-    """Those of the named options that were given, by name."""
-    return {name: values[name] for name in names if values[name] is not None}
 
 
 def typed(names: Iterable[str]) -> str:

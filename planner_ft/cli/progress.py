@@ -9,10 +9,12 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
+from planner_ft.support.alone import alone
 from planner_ft.support.terminal import terminal
 
 if TYPE_CHECKING:
@@ -41,8 +43,8 @@ def interruptible(kept: Callable[[], str] | None = None, *, lines: bool = True) 
 
 
 @contextlib.contextmanager
-def status(kept: Callable[[], str]) -> Iterator[Callable[[int, str], None]]:
-    """As `interruptible`, with one line of text that changes, for the step of a number."""
+def status(kept: Callable[[], str]) -> Iterator[Callable[[object, str], None]]:
+    """As `interruptible`, with one line of text that changes, for a step."""
     with _interruptible(kept) as (console, _stopped):
         if console.is_terminal:
             with console.status("starting") as line:
@@ -50,10 +52,20 @@ def status(kept: Callable[[], str]) -> Iterator[Callable[[int, str], None]]:
             return
         due = _Due()
 
-        def report(step: int, text: str) -> None:
+        def report(step: object, text: str) -> None:
             if due(step):
                 console.print(text, soft_wrap=True, markup=False)
 
+        yield report
+
+
+@contextlib.contextmanager
+def working(folder: Path, log: str, *, keeps: bool = True) -> Iterator[Report]:
+    """Hold the --out of a benchmark, show progress, and say after Ctrl-C what its `log` keeps."""
+    from planner_ft.benchmark.folder import kept
+
+    again = (lambda: f"{kept(folder / log)}; go on with: {resume_command()}") if keeps else None
+    with alone(folder, "--out", "a benchmark"), interruptible(again) as report:
         yield report
 
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
 
 import typer
 
-from planner_ft.cli.options import command, typed
+from planner_ft.cli.options import Options, command, typed
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
@@ -18,47 +17,50 @@ HARVESTING = ("out", "overwrite")
 
 
 @command
-def review(**options: Any) -> None:
+def review(o: Options) -> None:
     """Read, edit, approve or reject a plan."""
-    if options["harvest"]:
-        _refuse("--harvest", options, "web", "origin", *DECISIONS, *SERVING)
-        _harvest(options)
-    elif options["web"]:
-        _refuse("--web", options, *DECISIONS, *HARVESTING)
-        _serve(options)
+    if o.harvest:
+        _refuse("--harvest", o, "web", "origin", *DECISIONS, *SERVING)
+        _harvest(o)
+    elif o.web:
+        _refuse("--web", o, *DECISIONS, *HARVESTING)
+        _serve(o)
     else:
-        _refuse("a review in the terminal", options, *SERVING, *HARVESTING)
-        _review(options)
+        _refuse("a review in the terminal", o, *SERVING, *HARVESTING)
+        _review(o)
 
 
-def _refuse(mode: str, options: dict[str, Any], *names: str) -> None:
+def _refuse(mode: str, o: Options, *names: str) -> None:
     """Raise PlannerError for options that this kind of review has no use for."""
-    for name in names:
-        if options[name] not in (None, False, []):
-            raise PlannerError(f"{typed([name])} does not go with {mode}; leave one of them out")
+    for name in o.given(*names):
+        raise PlannerError(f"{typed([name])} does not go with {mode}; leave one of them out")
 
 
-def _review(options: dict[str, Any]) -> None:
+def _plans(o: Options, way_out: str, *counts: int) -> list[Path]:
+    plans: list[Path] = o.plans or []
+    if len(plans) not in counts:
+        raise PlannerError(f"{len(plans)} plans are given; {way_out}")
+    return plans
+
+
+def _review(o: Options) -> None:
     from planner_ft.review.desk import open_desk
     from planner_ft.review.terminal import Conversation
 
-    plans = options["plans"] or []
-    if len(plans) != 1:
-        way_out = "one is reviewed at a time, such as plannerft review plan.json"
-        raise PlannerError(f"{len(plans)} plans are given; {way_out}")
-    named = [options[key] for key in ("log", "vocabulary", "name", "candidate", "device")]
-    adopt, approve, reason = options["adopt"], options["approve"], options["reject"]
-    edits, acknowledged = options["edit"] or [], options["acknowledge"] or []
-    if options["origin"] is not None:
-        edits = [f"origin {options['origin']}", *edits]
-    reviewer = Conversation(open_desk(plans[0], *named), terminal(soft_wrap=True))
-    if approve and reason is not None:
+    way_out = "one is reviewed at a time, such as plannerft review plan.json"
+    (plan,) = _plans(o, way_out, 1)
+    edits, acknowledged = o.edit or [], o.acknowledge or []
+    if o.origin is not None:
+        edits = [f"origin {o.origin}", *edits]
+    desk = open_desk(plan, o.log, o.vocabulary, o.name, o.candidate, o.device)
+    reviewer = Conversation(desk, terminal(soft_wrap=True))
+    if o.approve and o.reject is not None:
         raise PlannerError("--approve and --reject exclude each other; leave one of them out")
-    if adopt or edits or approve or reason is not None:
-        reviewer.decide(adopt, edits, approve, acknowledged, reason)
+    if o.adopt or edits or o.approve or o.reject is not None:
+        reviewer.decide(o.adopt, edits, o.approve, acknowledged, o.reject)
     elif acknowledged:
         raise PlannerError("--acknowledge goes with --approve; give both")
-    elif options["show"] or not (sys.stdin.isatty() and sys.stdout.isatty()):
+    elif o.show or not (sys.stdin.isatty() and sys.stdout.isatty()):
         reviewer.show()
     else:
         try:
@@ -68,47 +70,38 @@ def _review(options: dict[str, Any]) -> None:
             raise typer.Exit(130) from None
 
 
-def _serve(options: dict[str, Any]) -> None:
+def _serve(o: Options) -> None:
     from planner_ft.exporters import page as exporting
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.simulation.live import run_live
     from planner_ft.support.geodesy import parse_origin
 
-    plans = options["plans"] or []
-    if len(plans) > 1:
-        way_out = "one is opened, and the page offers the others of its folder"
-        raise PlannerError(f"{len(plans)} plans are given; {way_out}")
-    plan = plans[0] if plans else None
-    planning = planning_of(plan, *(options[key] for key in ("vocabulary", "candidate", "device")))
-    given = {key: options[key] for key in ("host", "port", "log") if options[key] is not None}
-    if options["origin"] is not None:
-        given["origin"] = parse_origin(options["origin"])
-    given |= {"reviewer": options["name"] or "", "exporting": exporting, "runner": run_live}
-    serve(plan, WebSettings(planning=planning, open_browser=not options["no_browser"], **given))
+    way_out = "one is opened, and the page offers the others of its folder"
+    plan = next(iter(_plans(o, way_out, 0, 1)), None)
+    given = o.given("host", "port", "log")
+    if o.origin is not None:
+        given["origin"] = parse_origin(o.origin)
+    given |= {"reviewer": o.name or "", "exporting": exporting, "runner": run_live}
+    planning = planning_of(plan, o.vocabulary, o.candidate, o.device)
+    serve(plan, WebSettings(planning=planning, open_browser=not o.no_browser, **given))
 
 
-def _harvest(options: dict[str, Any]) -> None:
+def _harvest(o: Options) -> None:
     from planner_ft.review.harvest import harvest_files
 
-    files = options["plans"] or [], options["log"], options["out"]
-    settings = {key: options[key] for key in ("overwrite", "vocabulary")}
-    for line in harvest_files(*files, **settings).lines():
+    how = o.take("overwrite", "vocabulary")
+    for line in harvest_files(o.plans or [], o.log, o.out, **how).lines():
         show(line)
 
 
 @command
-def verify(
-    plan: Path | None = None,
-    log: Path | None = None,
-    json: bool = False,
-    vocabulary: str | None = None,
-) -> None:
+def verify(o: Options) -> None:
     """Check that a plan is exactly what a person approved."""
-    if plan is not None:
-        _verify_plan(plan, log, json, vocabulary)
-    elif log is not None:
-        _verify_log(log, json)
+    if o.plan is not None:
+        _verify_plan(o.plan, o.log, o.json, o.vocabulary)
+    elif o.log is not None:
+        _verify_log(o.log, o.json)
     else:
         ways = "give a plan, such as plannerft verify plan.json, or a log with --log"
         raise PlannerError(f"nothing to verify: {ways}")

@@ -1,47 +1,30 @@
-"""`plannerft simulate`."""
+"""`plannerft simulate` and `plannerft skill`."""
 
 from __future__ import annotations
 
 import inspect
 from pathlib import Path
-from typing import Any
 
-from planner_ft.cli.options import command
-from planner_ft.cli.progress import interruptible
+from planner_ft.cli.options import Options, command
+from planner_ft.cli.progress import interruptible, resume_command
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
+AS_GIVEN = (
+    *("plan", "out", "runs", "seed", "simulator", "tolerance", "mcap", "log", "draft"),
+    *("vocabulary", "overwrite", "goto", "survey"),
+)
+"""Options that are settings of a simulation as they are."""
+
 
 @command
-def simulate(
-    plan: Path | None = None,
-    suite: Path | None = None,
-    runs: int = 20,
-    seed: int = 0,
-    simulator: str = "fast",
-    locate: list[str] | None = None,
-    start: list[str] | None = None,
-    fault: list[str] | None = None,
-    goto: str = "guidance",
-    survey: str = "waypoints",
-    outline: list[str] | None = None,
-    tolerance: float = 1.0,
-    mcap: int = 1,
-    origin: str | None = None,
-    log: Path | None = None,
-    draft: bool = False,
-    vocabulary: str | None = None,
-    out: Path | None = None,
-    overwrite: bool = False,
-) -> None:
+def simulate(o: Options) -> None:
     """Run an approved plan in a simulator, or a suite of missions from the command on."""
-    options = locals()
-    if (plan is None) == (suite is None):
+    if (o.plan is None) == (o.suite is None):
         raise PlannerError("give a plan, or --suite FILE, not both")
-    if suite is not None:
-        _suite(suite, options)
+    if o.suite is not None:
+        _suite(o)
         return
-    assert plan is not None
     from planner_ft.planning.locations import parse_locations
     from planner_ft.simulation.faults import read_faults
     from planner_ft.simulation.outlines import read_outlines
@@ -52,19 +35,12 @@ def simulate(
     from planner_ft.support.tables import terminal_table
 
     settings = SimulationSettings(
-        *(plan, out, runs, seed, simulator, tolerance),
-        locations=parse_locations(locate or []),
-        starts=tuple(_place(text) for text in start or ()),
-        faults=read_faults(fault or []),
-        origin=parse_origin(origin) if origin is not None else None,
-        mcap=mcap,
-        log=log,
-        draft=draft,
-        vocabulary=vocabulary,
-        overwrite=overwrite,
-        goto=goto,
-        survey=survey,
-        outlines=read_outlines(outline or []),
+        locations=parse_locations(o.locate or []),
+        starts=tuple(_place(text) for text in o.start or ()),
+        faults=read_faults(o.fault or []),
+        origin=parse_origin(o.origin) if o.origin is not None else None,
+        outlines=read_outlines(o.outline or []),
+        **o.take(*AS_GIVEN),
     )
     with interruptible(lambda: f"{settings.folder} holds the logs so far") as report:
         done = run(settings, report)
@@ -76,19 +52,21 @@ def simulate(
     show(f"{settings.folder}: table.md, tracks.svg, report.html, results.json and a log per run")
 
 
-def _suite(path: Path, options: dict[str, Any]) -> None:
+def _suite(o: Options) -> None:
     """Run a suite, which says everything itself but where to."""
     from planner_ft.simulation.suite import SHORT, read_suite, run_suite, suite_table
     from planner_ft.support.tables import terminal_table
 
     own = ("plan", "suite", "out", "overwrite")
     for name, item in inspect.signature(simulate).parameters.items():
-        if name not in own and options[name] != item.default:
-            raise PlannerError(f"--{name}: a suite says this itself; leave it out or edit {path}")
-    suite, out = read_suite(path), options["out"] or Path(f"{path.stem}.simulation")
+        if name not in own and getattr(o, name) != item.default:
+            raise PlannerError(
+                f"--{name}: a suite says this itself; leave it out or edit {o.suite}"
+            )
+    suite, out = read_suite(o.suite), o.out or Path(f"{o.suite.stem}.simulation")
     again = f"{out} holds what is done; the same command goes on"
     with interruptible(lambda: again) as report:
-        ran = run_suite(suite, out, report, overwrite=options["overwrite"])
+        ran = run_suite(suite, out, report, overwrite=o.overwrite)
     terminal().print(terminal_table(suite_table(suite, ran, SHORT)))
     show(f"{out}: table.md, table.csv, and a folder per mission with plan, log and runs")
 
@@ -102,3 +80,42 @@ def _place(text: str) -> tuple[float, float]:
     if not abs(x) + abs(y) < 1e6:
         raise PlannerError(f"--start {text}: must be within 1000 km of home")
     return x, y
+
+
+TRAINING = ("recipe", "seed", "sampling", "without", "goto", "resume", "overwrite")
+BENCH = ("goto", "episodes", "seed", "out", "overwrite")
+
+
+@command
+def skill(o: Options) -> None:
+    """Train a skill, or measure it beside its baselines."""
+    if o.action == "train":
+        _train(o)
+    elif o.action == "bench":
+        _bench(o)
+    else:
+        raise PlannerError(f"plannerft skill {o.action}: must be train or bench")
+
+
+def _train(o: Options) -> None:
+    from planner_ft.skills.training import SkillTraining, train_skill
+
+    folder, changes = o.out or Path("skills") / o.name, o.given("iterations", "environments")
+    request = SkillTraining(o.name, folder, changes=changes, **o.take(*TRAINING))
+    with interruptible(lambda: f"continue with: {resume_command()}") as report:
+        train_skill(request, report)
+    show(f"{folder}: policy.safetensors with card, manifest and log.jsonl")
+    show(f"next: plannerft skill bench {o.name} --policy {folder}")
+
+
+def _bench(o: Options) -> None:
+    from planner_ft.skills.bench import SkillBench, bench_skill
+    from planner_ft.support.tables import terminal_table
+
+    request = SkillBench(o.name, tuple(o.policy or ()), **o.take(*BENCH))
+    with interruptible() as report:
+        tables = bench_skill(request, report)
+    for table in tables:
+        terminal().print(terminal_table(table))
+    if o.out:
+        show(f"{o.out}: table.md, table.csv, episodes.json and manifest.json")

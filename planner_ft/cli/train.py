@@ -5,13 +5,11 @@ from __future__ import annotations
 import inspect
 import shlex
 from collections.abc import Callable
-from pathlib import Path
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from planner_ft.cli.options import command, given, set_parameters
+from planner_ft.cli.options import Options, command, set_parameters
 from planner_ft.cli.progress import interruptible, resume_command, status
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
@@ -57,20 +55,18 @@ def _option(name: str) -> Any:
 
 @with_settings()
 @command
-def train(**options: Any) -> None:
+def train(o: Options) -> None:
     """Fine-tune a LoRA adapter on a 4-bit base."""
     from planner_ft.training.request import RUN_KEYS, build_request
 
-    names, settings = ({key: options[key] for key in keys} for keys in (RUN_KEYS, FIELDS))
-    rerun = {name: options[name] for name in ("recipe", "overwrite", "resume")}
-    ranks, preview_id = join_ranks(), options["preview_id"]
+    ranks, rerun = join_ranks(), o.take("recipe", "overwrite", "resume")
     with ranks.one_voice():
-        request = build_request(names, settings, **rerun, ranks=ranks)
+        request = build_request(o.take(*RUN_KEYS), o.take(*FIELDS), **rerun, ranks=ranks)
     console = terminal(soft_wrap=True)
-    if not (options["preview"] or preview_id):
+    if not (o.preview or o.preview_id):
         _train(request, console, ranks)
     elif ranks.leads:
-        _preview(request, preview_id, console)
+        _preview(request, o.preview_id, console)
 
 
 def _train(request: Any, console: Console, ranks: Ranks) -> None:
@@ -138,25 +134,21 @@ NAMED = ("level", "candidate", "vocabulary", "data_dir")
 
 @with_settings("seed", "max_samples", "keep_checkpoints")
 @command
-def learning_curve(**options: Any) -> None:
+def learning_curve(o: Options) -> None:
     """Train on growing parts of the training set and benchmark each."""
-    from planner_ft.benchmark.curve.points import SAMPLES, write_curve
-    from planner_ft.benchmark.curve.units import begin, prepare, run_units
+    from planner_ft.benchmark.curve import SAMPLES, begin, prepare, run_units, write_curve
     from planner_ft.report.pictures import write_figure
     from planner_ft.training.request import build_request
 
-    o = SimpleNamespace(**options)
-    if o.resume and o.overwrite:
-        raise PlannerError("--overwrite and --resume exclude each other")
-    flags = given(options, *(name for name in FIELDS if name in options))
-    request = build_request(given(options, *NAMED), flags)
+    flags = {name: value for name, value in vars(o).items() if name in FIELDS and value is not None}
+    request = build_request(o.given(*NAMED), flags)
     how = o.seeds, o.strength, o.data, o.limit
     curve = prepare(request, o.out, _sizes(o.sizes), *how, flags)
     with alone(o.out, "--out", "a learning curve"):
         begin(curve, resume=o.resume, overwrite=o.overwrite)
-        with status(lambda: f"go on with: {resume_command()}") as state:
-            run_units(curve, state)
-            state(0, "tables and figure")
+        with status(lambda: f"go on with: {resume_command()}") as said:
+            run_units(curve, lambda state: said((state.number, state.step), str(state)))
+            said("end", "tables and figure")
             write_figure(write_curve(curve), SAMPLES[request.level], o.out)
     show((o.out / "table.md").read_text(encoding="utf-8"))
     figures = "learning-curve.png, learning-curve.svg"
@@ -174,17 +166,18 @@ SHOWN = {"plan": "plans", "entry": "tasks or skills", "value": "values"}
 
 
 @command
-def calibrate(data: list[Path], **options: Any) -> None:
+def calibrate(o: Options) -> None:
     """Calibrate a candidate's confidence."""
     from planner_ft.benchmark.calibrate import calibrate as run
     from planner_ft.vocabulary.plans import check_level
 
-    checked, out = check_level(options.pop("level")), options.pop("out")
-    own = {f"{checked}_{name}": options.pop(name) for name in ("configuration", "adapter")}
-    with alone(out, "--out", "a calibration"), interruptible() as report:
-        path, manifest = run(checked, data, out, report, **options, **own)
+    level = check_level(o.level)
+    named = {f"{level}_configuration": o.configuration, f"{level}_adapter": o.adapter}
+    named |= o.take("candidate", "vocabulary", "device", "quantization")
+    with alone(o.out, "--out", "a calibration"), interruptible() as report:
+        path, manifest = run(level, o.data, o.out, report, **named)
     for kind, found in manifest["held_out"].items():
         right = f"{found['n'] - found['wrong']} of {found['n']} {SHOWN[kind]} right"
         area = f"area under risk-coverage {found['aurc']:.4f}, random {found['aurc_random']:.4f}"
         show(f"{right}; calibration error {found['ece']:.3f}; {area}")
-    show(f"{path}: how sure the {checked} agent is, of these weights")
+    show(f"{path}: how sure the {level} agent is, of these weights")

@@ -9,10 +9,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from planner_ft.document.clearance import SAME, Structure, structures
+from planner_ft.document.confidence import in_unit
 from planner_ft.document.limits import limits_of
+from planner_ft.document.structures import SAME, Structure, structures
 from planner_ft.document.track import Track
-from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 
 Document = Mapping[str, Any]
@@ -76,7 +76,7 @@ def _rows(document: Document, path: Track) -> Iterator[Row]:
     endurance, sofar = (document.get("vehicle") or {}).get("endurance"), 0.0
     open_tasks = set(document["estimate"]["open"])
     for task in document["tasks"]:
-        legs = [leg for leg in path.legs if leg.task == task["id"]]
+        legs = path.of(task["id"])
         seconds = sum(leg.seconds or 0.0 for leg in legs)
         sofar += seconds
         used = sofar / endurance if endurance else None
@@ -109,10 +109,8 @@ def assumed(document: Document, vocabulary: Vocabulary) -> Iterator[str]:
             if source["kind"] not in ("model", "vehicle") or value is None:
                 continue
             unit = known.by_name[name].unit if known and name in known.by_name else None
-            after = f" {unit}" if unit not in (None, "count") else ""
-            shown = value if isinstance(value, str) else compact_json(value)
             whose = "the vehicle's own value" if source["kind"] == "vehicle" else "the model's own"
-            yield f"Task {number}, {task['title']}: {name} {shown}{after} is {whose}."
+            yield f"Task {number}, {task['title']}: {name} {in_unit(value, unit)} is {whose}."
         yield from (
             f"Task {number}, {task['title']}: {text}" for text in task.get("assumptions", ())
         )

@@ -54,6 +54,7 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
             if position != list(vocabulary.unresolved):
                 task["located"] = {parameter: place.name}
                 places[place.name] = position
+    charted = {name: list(position) for name, position in planned.chart.items()}
     proposal = {
         "tasks": tasks,
         "assumptions": [*plan.get("assumptions", []), *planned.mission.notes],
@@ -68,7 +69,7 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "vocabulary": vocabulary.named,
         "vehicle": (vehicle or load_vehicle(None, vocabulary)).as_json(),
         **({"origin": asdict(planned.origin)} if planned.origin else {}),
-        **({"structures": _structures(planned.chart)} if planned.chart else {}),
+        **({"structures": charted} if charted else {}),
         **{key: value for key, value in proposal.items() if key != "choices"},
         "confidence": plan_confidence(planned),
         **_problems(planned.mission),
@@ -100,10 +101,6 @@ def _task(number: int, task: PlannedTask, judged: Judgement) -> dict[str, Any]:
     if found := task_confidence(number, task, judged):
         entry["confidence"] = found
     return copy.deepcopy(entry)
-
-
-def _structures(chart: Mapping[str, Sequence[float]]) -> dict[str, list[float]]:
-    return {name: list(position) for name, position in chart.items()}
 
 
 def _problems(answer: Answer) -> dict[str, Any]:

@@ -81,23 +81,20 @@ def open_choices(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterato
 
 
 def _question(number: int, task: Mapping[str, Any], choice: Entry, vocabulary: Vocabulary) -> str:
-    title, name = task["title"], choice["parameter"]
+    title, name, unknown = task["title"], choice["parameter"], list(vocabulary.unresolved)
     unit = vocabulary.task[title].by_name[name].unit if name else None
-    after = f" {unit}" if unit not in (None, "count") else ""
     written = [
-        "not known yet" if one == list(vocabulary.unresolved) else f"{_shown(one)}{after}"
+        "not known yet" if one == unknown else in_unit(one, unit)
         for one in (choice["value"], *choice["others"])
     ]
-    options = f"{', '.join(written[:-1])} or {written[-1]}"
-    return (
-        f"Task {number}: {options}?"
-        if name is None
-        else f"Task {number}, {title}: {name} {options}?"
-    )
+    about = f", {title}: {name}" if name else ":"
+    return f"Task {number}{about} {', '.join(written[:-1])} or {written[-1]}?"
 
 
-def _shown(value: Any) -> str:
-    return value if isinstance(value, str) else compact_json(value)
+def in_unit(value: Any, unit: str | None = None) -> str:
+    """A value of a plan as sentences have it: "12 m"."""
+    text = value if isinstance(value, str) else compact_json(value)
+    return text if unit in (None, "count") else f"{text} {unit}"
 
 
 def kept_confidence(task: Mapping[str, Any], proposed: Mapping[str, Any]) -> dict[str, Any]:
@@ -154,5 +151,5 @@ def choice_lines(document: Mapping[str, Any]) -> Iterator[str]:
     """The questions, each alternative with what is typed in the review for it."""
     for number, choice in enumerate(document.get("choices", ()), start=1):
         keys = zip(LETTERS, choice["others"], strict=False)
-        typed = ", ".join(f"{number}{letter} for {_shown(value)}" for letter, value in keys)
+        typed = ", ".join(f"{number}{letter} for {in_unit(value)}" for letter, value in keys)
         yield f"{choice['text']} ({typed})"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
@@ -35,9 +35,10 @@ class Difference:
 
 def differences(document: PlanDocument) -> list[Difference]:
     """The differences between the proposal of a document and the plan as it stands."""
-    authors = _authors(document)
     return [
-        replace(one, by=by, text=f"{one.text}, changed by {by}") if (by := authors(one)) else one
+        replace(one, by=by, text=f"{one.text}, changed by {by}")
+        if (by := _author(one, document))
+        else one
         for one in compare(document["proposed"], document)
     ]
 
@@ -56,24 +57,17 @@ OF_EDIT: dict[Kind, tuple[str, ...]] = {
 """The kinds of edits that a kind of difference comes from; `replace` may bring any."""
 
 
-def _authors(document: PlanDocument) -> Callable[[Difference], str | None]:
+def _author(one: Difference, document: PlanDocument) -> str | None:
     """Who made the last edit that a difference can come from."""
-
-    def by(one: Difference) -> str | None:
-        for record in reversed(document["edits"]):
-            edit = record["edit"]
-            mine = edit["kind"] in OF_EDIT[one.kind] and (
-                edit.get("task", edit.get("id", one.task)) == one.task
-                and (
-                    edit["kind"] != "parameter" or one.kind == "prompt" or edit["name"] == one.name
-                )
-                and (one.kind != "located" or edit.get("name", one.name) == one.name)
-            )
-            if mine or edit["kind"] == "replace":
-                return str(record["by"]) if record["by"] else None
-        return None
-
-    return by
+    for record in reversed(document["edits"]):
+        edit, kind = record["edit"], record["edit"]["kind"]
+        of_task = edit.get("task", edit.get("id", one.task)) == one.task
+        named = edit.get("name", one.name) == one.name
+        by_name = one.kind == "located" or (kind == "parameter" and one.kind != "prompt")
+        mine = kind in OF_EDIT[one.kind] and of_task and (named or not by_name)
+        if mine or kind == "replace":
+            return str(record["by"]) if record["by"] else None
+    return None
 
 
 def compare(before: dict[str, Any], after: dict[str, Any]) -> list[Difference]:

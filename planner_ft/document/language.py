@@ -16,7 +16,6 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ONTOLOGY
 
 ENGLISH = Path(__file__).parent / "english.toml"
-ASK = ("words", "tasks")
 GAP = r"\W{1,3}(?:[\w'’-]{1,30}\W{1,3}){0,3}?"
 """The words that ... stands for: up to three."""
 CLAUSE_END = re.compile(
@@ -114,34 +113,27 @@ def _phrase(phrase: str) -> str:
 
 
 def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
-    asks, sensor = own.get("ask", []), own.get("sensor", {"words": ["any"]})
-    yield from (
-        f"unknown key {key!r}" for key in own if key not in ("ask", "sensor", "data", "hint")
-    )
+    keys = ("ask", "sensor", "data", "hint")
+    yield from (f"unknown key {key!r}" for key in own if key not in keys)
+    sensor = own.get("sensor", {"words": ["any"]})
     if not isinstance(sensor, dict) or not _are_words(sensor.get("words")):
         yield "[sensor] needs the list words"
-    for entry in asks if isinstance(asks, list) else [asks]:
-        if not isinstance(entry, dict) or not all(_are_words(entry.get(key)) for key in ASK):
-            yield "every [[ask]] needs the lists words and tasks"
-        elif wrong := [key for key in ("nouns", "sure") if not _are_words(entry.get(key, ["a"]))]:
-            yield f"[[ask]]: {wrong[0]} must be a list of words"
-        else:
-            unknown = [title for title in entry["tasks"] if title not in vocabulary.task]
-            yield from (f"[[ask]] names {title!r}, which is no task" for title in unknown)
-    yield from _data_problems(own.get("data", []), vocabulary)
-
-
-def _data_problems(entries: Any, vocabulary: Vocabulary) -> Iterator[str]:
-    for entry in entries if isinstance(entries, list) else [entries]:
-        if not isinstance(entry, dict) or not _are_words(entry.get("words")):
-            yield "every [[data]] needs the list words"
-            continue
-        skills = entry.get("skills", ["any"])
-        if not _are_words(skills):
-            yield "[[data]]: skills must be a list of names"
-        elif "skills" in entry:
-            unknown = [name for name in skills if name not in vocabulary.skill]
-            yield from (f"[[data]] names {name!r}, which is no skill" for name in unknown)
+    for kind, needed, optional, named, known in (
+        ("ask", ("words", "tasks"), ("nouns", "sure"), "tasks", vocabulary.task),
+        ("data", ("words",), ("skills",), "skills", vocabulary.skill),
+    ):
+        entries = own.get(kind, [])
+        for entry in entries if isinstance(entries, list) else [entries]:
+            if not isinstance(entry, dict) or not all(_are_words(entry.get(key)) for key in needed):
+                lists = "list" if len(needed) == 1 else "lists"
+                yield f"every [[{kind}]] needs the {lists} {' and '.join(needed)}"
+            elif wrong := [key for key in optional if not _are_words(entry.get(key, ["any"]))]:
+                of = "names" if wrong[0] == named else "words"
+                yield f"[[{kind}]]: {wrong[0]} must be a list of {of}"
+            else:
+                unknown = [name for name in entry.get(named, ()) if name not in known]
+                which = f"which is no {named.removesuffix('s')}"
+                yield from (f"[[{kind}]] names {name!r}, {which}" for name in unknown)
 
 
 def _are_words(value: Any) -> bool:

@@ -12,7 +12,7 @@ from typing import Any
 from planner_ft.document.language import read_clauses
 from planner_ft.facts import WAYPOINT, Facts, Span, read
 from planner_ft.planning.frame import frame_of
-from planner_ft.planning.limits import holds_for, limits_in
+from planner_ft.planning.limits import holds_for, limits_in, time_left
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.limits import Limit, Limits, load_limits
 
@@ -55,12 +55,6 @@ def _entry(limit: Limit, known: Limits, tasks: list[dict[str, Any]]) -> dict[str
     elif not place:
         entry["unchecked"] = f"where {limit.values['object']} is, is not known"
     return entry
-
-
-def time_left(values: Mapping[str, Any]) -> float | None:
-    """Seconds to be back within, where a time of return is a duration ("40 minutes")."""
-    readings = read(str(values["time"])).numbers("s")
-    return readings[0].value if len(readings) == 1 and readings[0].unit == "s" else None
 
 
 def _words(limit: Mapping[str, Any], command: str, vocabulary: Vocabulary) -> Span | None:

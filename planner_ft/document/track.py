@@ -79,6 +79,14 @@ class Track:
     open: tuple[str, ...]
     end: Point | None = None
 
+    def of(self, task: str, step: int | None = None) -> list[Leg]:
+        """The legs of a task, or of one of its steps."""
+        return [leg for leg in self.legs if leg.task == task and step in (None, leg.step)]
+
+    def last(self, home: Point) -> Point:
+        """The last known point."""
+        return next((leg.points[-1] for leg in reversed(self.legs) if leg.points), home)
+
     def as_json(self) -> dict[str, Any]:
         """Everything as a JSON object."""
         return asdict(self)
@@ -100,8 +108,7 @@ def estimate(document: Mapping[str, Any], path: Track, home: Point = (0.0, 0.0))
 
     `away` is how far from home the plan ends, where that is known and not home.
     """
-    last = next((leg.points[-1] for leg in reversed(path.legs) if leg.points), home)
-    away = round(math.dist(last, home), 1)
+    away = round(math.dist(path.last(home), home), 1)
     untimed = {leg.task for leg in path.legs if leg.seconds is None} | set(path.open)
     return {
         **({"away": away} if away and not path.open else {}),
@@ -115,7 +122,21 @@ def place_of(task: TaskEntry, vocabulary: Vocabulary) -> Point | None:
     """Where a task takes place; None where it has no place, or one that is not known."""
     known = vocabulary.task.get(str(task["title"]))
     value = task["parameters"].get(known.position_parameter) if known else None
-    return None if value is None or tuple(value) == vocabulary.unresolved else _point(value)
+    return None if value is None or tuple(value) == vocabulary.unresolved else point_of(value)
+
+
+def circle_of(task: TaskEntry, vocabulary: Vocabulary) -> tuple[Point, float] | None:
+    """The circle that a task keeps: its centre and its radius."""
+    circle, center = vocabulary.motion.standoff(task["title"]), place_of(task, vocabulary)
+    radius = task["parameters"].get(circle.radius) if circle else None
+    return (center, float(radius)) if center and radius else None
+
+
+def stated(task: TaskEntry, unit: str, vocabulary: Vocabulary) -> dict[str, Any]:
+    """The values in a unit that the parameters of a task state, by name."""
+    known, given = vocabulary.task.get(task["title"]), task["parameters"]
+    names = [item.name for item in (known.parameters if known else ()) if item.unit == unit]
+    return {name: given[name] for name in names if name in given}
 
 
 class Pen:
@@ -149,11 +170,10 @@ class Pen:
 
     def begin(self, task: TaskEntry) -> None:
         """Take over the speed and the centre of a task."""
-        known, place = self.vocabulary.task.get(task["title"]), place_of(task, self.vocabulary)
-        speeds = [item.name for item in (known.parameters if known else ()) if item.unit == "m/s"]
-        stated = [task["parameters"].get(name) for name in speeds]
-        self._speed = next(filter(None, stated), self.vehicle.get("cruise_speed"))
-        self._center = place if self.vocabulary.motion.standoff(task["title"]) else None
+        speeds = stated(task, "m/s", self.vocabulary).values()
+        self._speed = next(filter(None, speeds), self.vehicle.get("cruise_speed"))
+        circle = self.vocabulary.motion.standoff(task["title"])
+        self._center = place_of(task, self.vocabulary) if circle else None
         self._at = (task["id"], 0, "")
 
     def step(self, number: int, skill: Mapping[str, Any]) -> None:
@@ -163,7 +183,7 @@ class Pen:
         if motion is None:
             self._leave_open()
         elif motion.kind == "go":
-            self._go(_point((motion.value("x", given), motion.value("y", given))))
+            self._go(point_of((motion.value("x", given), motion.value("y", given))))
             self.heading = _number(motion.value("heading", given), self.heading)
         elif motion.kind == "arc":
             self._arc(motion.value("radius", given), motion.value("angle", given))
@@ -177,8 +197,7 @@ class Pen:
     def _go(self, goal: Point) -> None:
         length = math.inf if self.here is None else math.dist(self.here, goal)
         if self.here is None or not math.isfinite(length):
-            # Where the vehicle comes from is not known, or beyond all numbers, and so is the way.
-            self._leave_open()
+            self._leave_open()  # where the vehicle comes from is not known, or beyond all numbers
         else:
             if length:
                 self.heading = bearing(self.here, goal)
@@ -208,15 +227,13 @@ class Pen:
         self.here, self.heading = curve[-1], (start + angle + side) % 360
 
     def _turn(self, motion: Motion, given: Mapping[str, Any]) -> None:
+        heading = self.heading + (by := _number(motion.value("angle", given), 0.0))
         if motion.kind == "turn-to":
             heading = _number(motion.value("heading", given), self.heading)
-            angle = abs((heading - self.heading + 180) % 360 - 180)
-        else:
-            by = _number(motion.value("angle", given), 0.0)
-            heading, angle = self.heading + by, abs(by)
+            by = (heading - self.heading + 180) % 360 - 180
         self.heading = heading % 360
         rate = self.vehicle.get("turn_rate")
-        self._stay("turn", angle / rate if rate else None)
+        self._stay("turn", abs(by) / rate if rate else None)
 
     def _stay(self, kind: LegKind, seconds: float | None) -> None:
         points = () if self.here is None else (self.here,)
@@ -236,12 +253,18 @@ def bearing(start: Point, goal: Point) -> float:
     return math.degrees(math.atan2(goal[0] - start[0], goal[1] - start[1])) % 360
 
 
+def shown(point: Sequence[float]) -> str:
+    """A position in words: [250, -80]."""
+    return f"[{point[0]:g}, {point[1]:g}]"
+
+
 def _offset(base: Point, direction: float, length: float) -> Point:
     x, y = math.sin(math.radians(direction)), math.cos(math.radians(direction))
     return round(base[0] + length * x, 3), round(base[1] + length * y, 3)
 
 
-def _point(value: Any) -> Point:
+def point_of(value: Any) -> Point:
+    """A position of a plan as a point."""
     return float(value[0]), float(value[1])
 
 
@@ -261,11 +284,10 @@ def _boundaries(tasks: Sequence[TaskEntry], vocabulary: Vocabulary) -> Iterator[
     for task in tasks:
         for number, step in enumerate(task.get("skill_sequence") or ()):
             for skill in step["filter_skills"]:
-                motion = vocabulary.motion.of(skill["name"])
-                if motion and motion.kind == "boundary":
-                    corners = motion.value("polygon", skill["parameters"])
-                    if corners:
-                        yield Boundary(task["id"], number, tuple(map(_point, corners)))
+                motion, given = vocabulary.motion.of(skill["name"]), skill["parameters"]
+                bounds = motion if motion and motion.kind == "boundary" else None
+                if bounds and (corners := bounds.value("polygon", given)):
+                    yield Boundary(task["id"], number, tuple(map(point_of, corners)))
 
 
 def _targets(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Target]:
@@ -274,5 +296,5 @@ def _targets(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Ta
         yield Target(place["name"], None, tasks[place["tasks"][0] - 1]["id"])
     places = {place_of(task, vocabulary): task["id"] for task in reversed(tasks)}
     for name, position in document.get("located", {}).items():
-        if _point(position) in places:
-            yield Target(name, _point(position), places[_point(position)])
+        if point_of(position) in places:
+            yield Target(name, point_of(position), places[point_of(position)])

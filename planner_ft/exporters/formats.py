@@ -10,24 +10,68 @@ from __future__ import annotations
 
 import functools
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from planner_ft.document.track import Leg, Track, stated, track
 from planner_ft.exporters.ledger import Account, Ledger
+from planner_ft.exporters.ledger import Path as Place
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
-
-if TYPE_CHECKING:
-    from planner_ft.document.track import Track
+from planner_ft.vocabulary.motion import Motion
 
 GROUP = "planner_ft.formats"
 DRAFT = "DRAFT - NOT APPROVED"
 TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("tables.toml").read_text("utf-8"))
 BUNDLED: dict[str, str] = TABLES["formats"]
+NO_SKILL: dict[str, Any] = {"name": "", "parameters": {}}
+
+
+@dataclass(frozen=True)
+class Action:
+    """The movement of a step, or of a task without skills, which has no step ({}).
+
+    `task` and `number` are the indices (from 0) of its task and its step, `motion` is what its
+    skill does, `leg` its movement in the track; None where they are not known. `timed` is the
+    task's parameter with the time of a hold by a skill that takes none.
+    """
+
+    task: int
+    number: int
+    entry: Mapping[str, Any]
+    step: Mapping[str, Any]
+    motion: Motion | None
+    leg: Leg | None
+    timed: str = ""
+
+    @property
+    def at(self) -> Place:
+        """Where its step stands in the document."""
+        return "tasks", self.task, "skill_sequence", self.number
+
+    @property
+    def skill(self) -> Any:
+        """The skill that moves the vehicle."""
+        return self.step.get("navigation_skill", NO_SKILL)
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The stated values of the movement by their roles."""
+        parameters, known = self.skill["parameters"], self.motion.parameters if self.motion else {}
+        given = {role: parameters.get(name) for role, name in known.items()}
+        given |= {"time": self.entry["parameters"][self.timed]} if self.timed else {}
+        return {role: value for role, value in given.items() if value is not None}
+
+    def roles(self) -> Iterator[tuple[str, Place]]:
+        """The role (its name where it has none) and the place of each parameter of the skill."""
+        known = self.motion.parameters.items() if self.motion else ()
+        roles = {name: role for role, name in known}
+        for name in self.skill["parameters"]:
+            yield roles.get(name, name), (*self.at, "navigation_skill", "parameters", name)
 
 
 @dataclass(frozen=True)
@@ -57,8 +101,6 @@ class PlanExport:
     @functools.cached_property
     def track(self) -> Track:
         """The vehicle's track in local metres."""
-        from planner_ft.document.track import track
-
         return track(self.document, self.vocabulary)
 
     @functools.cached_property
@@ -75,6 +117,19 @@ class PlanExport:
                 why = f"{name} has no skills, and the format cannot go on without its movement"
                 return index, f"{why}: plan its skills first"
         return None
+
+    @functools.cached_property
+    def actions(self) -> list[Action]:
+        """The movements that a format which cannot wait for a place carries."""
+        found, legs = [], {(leg.task, leg.step): leg for leg in self.track.legs}
+        for index, task in enumerate(self.document["tasks"][: self.ready]):
+            steps, own = task["skill_sequence"], self.hold_time(index)
+            for number, step in enumerate([{}] if steps is None else steps):
+                name = step["navigation_skill"]["name"] if step else ""
+                motion, leg = self.vocabulary.motion.of(name), legs.get((task["id"], number))
+                timed = own[0] if own and motion and motion.kind == "hold" else ""
+                found.append(Action(index, number, task, step, motion, leg, timed))
+        return found
 
     @property
     def ready(self) -> int:
@@ -95,13 +150,12 @@ class PlanExport:
     def hold_time(self, index: int) -> tuple[str, float] | None:
         """(parameter, seconds) of a task whose one stay is a hold by a skill that takes no time."""
         task, motions = self.document["tasks"][index], self.vocabulary.motion
-        steps, known = task["skill_sequence"] or (), self.vocabulary.task.get(task["title"])
+        steps = task["skill_sequence"] or ()
         moves = [motions.of(step["navigation_skill"]["name"]) for step in steps]
         stays = [move for move in moves if move and move.kind in ("hold", "wait", "drift")]
         timeless = [move for move in stays if move.kind == "hold" and "time" not in move.parameters]
-        times = [one.name for one in (known.parameters if known else ()) if one.unit == "s"]
-        stated = [(name, task["parameters"][name]) for name in times if name in task["parameters"]]
-        return stated[0] if len(stays) == len(timeless) == len(stated) == 1 else None
+        times = list(stated(task, "s", self.vocabulary).items())
+        return times[0] if len(stays) == len(timeless) == len(times) == 1 else None
 
     def head_words(self, ledger: Ledger, form: str) -> Iterator[str]:
         """The words of the plan as a whole, which are entered as carried in this form."""

@@ -6,15 +6,19 @@ out and why. Items that it never mentions are losses, too: nothing is dropped si
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path as FilePath
 from typing import Any
 
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, read_text
 
 Path = tuple[str | int, ...]
 """A place in the document: ("tasks", 1, "skill_sequence", 0, "navigation_skill", "name")."""
 
+ITEMS: dict[str, Any] = tomllib.loads(read_text(FilePath(__file__).with_name("items.toml")))
+"""The words of everything that a plan says, by its place; "*" is any key."""
 NO_PLACE = "the format has no place for it"
 MOVEMENT = ("navigation_skill", "name")
 """The end of the path of a step's movement."""
@@ -131,69 +135,29 @@ def plan_items(document: dict[str, Any]) -> Iterator[Item]:
     """Everything that a plan says to a vehicle or to its operator, in the document's order.
 
     How the plan came about (sources, edits, the proposal, usage, manifest) and what follows from
-    the rest (ontology, estimate) is no item.
+    the rest (ontology, estimate) is no item: items.toml says what is one, and in which words.
     """
-    yield Item(("command",), None, "the command")
-    for key, value in document["vehicle"].items():
-        if value is not None:
-            yield Item(("vehicle", key), None, f"the vehicle's {_named(key, value)}")
-    for index, task in enumerate(document["tasks"]):
-        for path, what in _task_items(task):
-            yield Item(("tasks", index, *path), task["id"], what)
-        for number, step in enumerate(task["skill_sequence"] or ()):
-            for path, what in _step_items(step):
-                at = ("tasks", index, "skill_sequence", number, *path)
-                yield Item(at, task["id"], what, number + 1)
-    beside = [*_texts(document, "assumptions"), *_texts(document, "constraints")]
-    for index, place in enumerate(document["open_places"]):
-        beside.append((("open_places", index), f"open place: {place['name']}"))
-    for name, position in document["located"].items():
-        beside.append((("located", name), f"located: {name} at {_words(position)}"))
-    for path, what in [*beside, *_texts(document, "problems")]:
-        yield Item(path, None, what)
-    for index, warning in enumerate(document["warnings"]):
-        yield Item(("warnings", index), warning.get("task"), f"warning: {warning['text']}")
+    for path, what in _found(document, ITEMS, (), ""):
+        task, step = None, None
+        if path[0] == "tasks":
+            task = document["tasks"][path[1]]["id"]
+            step = int(path[3]) + 1 if path[2] == "skill_sequence" else None
+        elif path[0] == "warnings":
+            task = document["warnings"][path[1]].get("task")
+        yield Item(path, task, what, step)
 
 
-def _task_items(task: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
-    yield ("title",), f"title {task['title']}"
-    yield ("task_prompt",), f"task prompt: {task['task_prompt']}"
-    for key, value in task["parameters"].items():
-        yield ("parameters", key), f"{key} = {_words(value)}"
-    for key in ("waits_for", "stale"):
-        if task.get(key):
-            yield (key,), _named(key, task[key])
-    for key, place in task.get("located", {}).items():
-        yield ("located", key), f"{key} is the place of {place}"
-    for key in ("assumptions", "problems"):
-        yield from _texts(task, key)
-
-
-def _step_items(step: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
-    for at, skill in skills_of(step):
-        yield (*at, "name"), str(skill["name"])
-        for key, value in skill["parameters"].items():
-            yield (*at, "parameters", key), f"{skill['name']} {key} = {_words(value)}"
-    for key in LISTS:
-        yield from _texts(step, key)
-
-
-def skills_of(step: Mapping[str, Any]) -> Iterator[tuple[Path, dict[str, Any]]]:
-    """The skills of a step with their places in it, the one that moves the vehicle first."""
-    yield ("navigation_skill",), step["navigation_skill"]
-    for key in ("filter_skills", "perception_skills"):
-        yield from (((key, index), skill) for index, skill in enumerate(step[key]))
-
-
-def _texts(owner: Mapping[str, Any], key: str) -> Iterator[tuple[Path, str]]:
-    """The sentences of a list: "stop_conditions" are "stop condition: ..."."""
-    for index, text in enumerate(owner.get(key, ())):
-        yield (key, index), _named(key[:-1], text)
-
-
-def _named(key: str, value: Any) -> str:
-    return f"{key.replace('_', ' ')}: {_words(value)}"
-
-
-def _words(value: Any) -> str:
-    return value if isinstance(value, str) else compact_json(value)
+def _found(value: Any, items: Any, path: Path, owner: str) -> Iterator[tuple[Path, str]]:
+    """The places of a table of items in a value, with their words; `owner` is the nearest name."""
+    if isinstance(value, dict) and "name" in (items if isinstance(items, dict) else value):
+        owner = value["name"]
+    if isinstance(items, str):
+        key, plain = str(path[-1]), isinstance(value, str | dict)
+        words = {"value": value if plain else compact_json(value), "owner": owner}
+        yield path, items.format(key=key, name=key.replace("_", " "), **words)
+        return
+    for key, below in items.items():
+        entries = value.items() if isinstance(value, dict) else enumerate(value)
+        for name, one in entries if key == "*" else [(key, value.get(key))]:
+            if one is not None and one is not False:
+                yield from _found(one, below, (*path, name), owner)

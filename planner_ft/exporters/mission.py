@@ -20,8 +20,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.document.track import Leg, Point, bearing
-from planner_ft.exporters.formats import TABLES, PlanExport
+from planner_ft.document.track import Leg, Point, bearing, stated
+from planner_ft.exporters.formats import TABLES, Action, PlanExport
 from planner_ft.exporters.ledger import Path
 from planner_ft.support.errors import PlannerError
 
@@ -85,11 +85,9 @@ class Mission:
         assert plan.origin is not None
         self.plan, self.origin, self.vocabulary = plan, plan.origin, plan.vocabulary
         self.motions, self.vehicle = plan.vocabulary.motion, plan.document["vehicle"]
-        self.tasks = plan.document["tasks"][: plan.ready]
         moves = [motion for motion in self.motions.skills.values() if motion.kind == "go"]
         self.flies = any("altitude" in motion.parameters for motion in moves)
         self.vehicle_type = QUADROTOR if self.flies else SURFACE_BOAT
-        self.legs = {(leg.task, leg.step): leg for leg in plan.track.legs}
         self.items: list[MissionItem] = []
         self.fences: tuple[Polygon, ...] = ()
         area: list[tuple[Path, Sequence[Point]]] = [(("vehicle", "area"), self.vehicle["area"])]
@@ -110,14 +108,14 @@ class Mission:
 
     def write_task(self, index: int) -> None:
         """Write the steps of a task; a task without skills goes where its parameters say."""
-        task, at, first = self.tasks[index], ("tasks", index), len(self.way)
+        task, at, first = self.plan.document["tasks"][index], ("tasks", index), len(self.way)
         known = self.vocabulary.task.get(task["title"])
         self._change_speed(task, at)
-        for number, step in enumerate(task["skill_sequence"] or ()):
-            leg = self.legs.get((task["id"], number))
-            self._write_step((*at, "skill_sequence", number), step, leg)
-        if task["skill_sequence"] is None:
-            self._go(self.legs[task["id"], 0])
+        for action in (one for one in self.plan.actions if one.task == index):
+            if action.step:
+                self._write_step(action)
+            elif action.leg:
+                self._go(action.leg)
         name = known.position_parameter if known else None
         goal = task["parameters"].get(name) if name else None
         if name and goal and any(math.dist(goal, point) < 0.01 for point in self.way[first:]):
@@ -143,49 +141,41 @@ class Mission:
 
     def _change_speed(self, task: dict[str, Any], at: Path) -> None:
         """Write the speed that a task states; a task that states none goes at the vehicle's own."""
-        known = self.vocabulary.task.get(task["title"])
-        named = [one.name for one in (known.parameters if known else ()) if one.unit == "m/s"]
-        name = next((name for name in named if task["parameters"].get(name)), None)
-        speed = task["parameters"][name] if name else self.vehicle["cruise_speed"]
+        named = stated(task, "m/s", self.vocabulary)
+        name = next((name for name in named if named[name]), None)
+        speed = named[name] if name else self.vehicle["cruise_speed"]
         if speed != self.speed:
             self.items += [MissionItem(DO_CHANGE_SPEED, (1, speed, -1, 0))] * 2
             self.speed = speed
         if name:
             self.ledger.carry(*at, "parameters", name)
 
-    def _write_step(self, at: Path, step: dict[str, Any], leg: Leg | None) -> None:
-        for place, skill in enumerate(step["filter_skills"]):
-            motion, path = self.motions.of(skill["name"]), (*at, "filter_skills", place)
+    def _write_step(self, action: Action) -> None:
+        for place, skill in enumerate(action.step["filter_skills"]):
+            motion, path = self.motions.of(skill["name"]), (*action.at, "filter_skills", place)
             if motion and motion.kind in BY_MOTION:
                 self.ledger.lose(*path, why=BY_MOTION[motion.kind])
             if motion and (corners := motion.value("polygon", skill["parameters"])):
                 self.boundaries.append((path, corners))
-        skill, at = step["navigation_skill"], (*at, "navigation_skill")
-        motion = self.motions.of(skill["name"])
-        if motion is None:
-            return
-        if motion.kind in BY_MOTION:
+        motion, leg, at = action.motion, action.leg, (*action.at, "navigation_skill")
+        if motion and motion.kind in BY_MOTION:
             self.ledger.lose(*at, why=BY_MOTION[motion.kind])
-        if leg is None or motion.kind == "drift":
+        if motion is None or leg is None or motion.kind == "drift":
             return
         if self.flies and motion.kind in ("turn-to", "turn-by"):
             self.ledger.lose(*at, why="an ArduPilot multicopter turns only beside a movement")
             return
+        if action.timed:
+            self.ledger.carry("tasks", action.task, "parameters", action.timed)
         write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
-        given = {role: motion.value(role, skill["parameters"]) for role in motion.parameters}
-        own = self.plan.hold_time(int(at[1])) if motion.kind == "hold" else None
-        if own:
-            given["time"] = own[1]
-            self.ledger.carry("tasks", at[1], "parameters", own[0])
-        carried = write.get(motion.kind, self._turn)(given, leg)
-        if carried:
+        if carried := write.get(motion.kind, self._turn)(action.given, leg):
             roles, form = carried
             self.ledger.carry(*at, "name", form=form)
-            if motion.kind == "hold" and given.get("time") is None:
+            if motion.kind == "hold" and "time" not in action.given:
                 self.ledger.stop(*at, "name")
-            for name in (motion.parameters.get(role, "") for role in roles):
-                if name in skill["parameters"]:
-                    self.ledger.carry(*at, "parameters", name, form=form)
+            for role, path in action.roles():
+                if role in roles:
+                    self.ledger.carry(*path, form=form)
 
     def _move(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         self._go(leg, float(given.get("altitude") or 0))

@@ -10,36 +10,21 @@ moos_behaviours.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.exporters.formats import Format, PlanExport, Written
-from planner_ft.exporters.ledger import LISTS, Path
+from planner_ft.exporters.formats import Action, Format, PlanExport, Written
+from planner_ft.exporters.ledger import LISTS
 from planner_ft.exporters.moos_behaviours import STEP, TABLE, Move, guard_form, guards, move_of
 from planner_ft.exporters.moos_text import block, comment, quoted, variable
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.plans import step_skills
 
 DEFAULT_SPEED = 1.0  # metres per second where the plan's vehicle says none
-NO_SKILL = {"name": "", "parameters": {}}
 
 
 def write(plan: PlanExport) -> Written:
     """The behaviour file of a plan, up to the first task whose movement is not known."""
     return _File(plan).written()
-
-
-@dataclass(frozen=True)
-class _Place:
-    """A movement in the plan: its task's index and its name, its step and where that stands
-    (nothing and None: a task without skills), and what is done.
-    """
-
-    task: int
-    name: str
-    at: Path | None
-    step: Mapping[str, Any]
-    move: Move
 
 
 class _File:
@@ -50,38 +35,22 @@ class _File:
         self.ledger, self.motions = plan.ledger(), plan.vocabulary.motion
         vehicle = self.document.get("vehicle") or {}
         self.area = vehicle.get("area")
-        self.cruise_speed = float(vehicle.get("cruise_speed") or DEFAULT_SPEED)
-        self.tasks = self.document["tasks"][: plan.ready]
-        self.places = list(enumerate(self._places(), start=1))
-
-    def _places(self) -> Iterator[_Place]:
-        """The movements of the tasks; a step whose movement is not known is lost."""
-        legs = {(leg.task, leg.step): leg for leg in self.plan.track.legs}
-        for index, task in enumerate(self.tasks):
-            steps = task["skill_sequence"]
-            for number, step in enumerate([{}] if steps is None else steps):
-                skill = step.get("navigation_skill", NO_SKILL)
-                motion = self.motions.of(skill["name"])
-                at: Path | None = ("tasks", index, "skill_sequence", number) if step else None
-                move, leg = None, legs.get((task["id"], number))
-                if motion or at is None:
-                    own = self.plan.hold_time(index) if motion and motion.kind == "hold" else None
-                    time = own and own[1]
-                    move = move_of(motion, skill["parameters"], leg, self.cruise_speed, time)
-                if move:
-                    yield _Place(index, f"{task['id']}_{number + 1}", at, step, move)
-                elif at:
-                    self.ledger.lose(*at, why=TABLE["unknown"])
+        speed = float(vehicle.get("cruise_speed") or DEFAULT_SPEED)
+        moves = [(action, move_of(action, speed)) for action in plan.actions]
+        for action in (action for action, move in moves if move is None and action.step):
+            self.ledger.lose(*action.at, why=TABLE["unknown"])
+        known = ((action, move) for action, move in moves if move)
+        self.moves = dict(enumerate(known, start=1))
 
     def written(self) -> Written:
         lines = [*self._head(), ""]
         for guard in guards(self._filters()):
             lines += [*guard, ""]
-        for index, task in enumerate(self.tasks):
+        for index, task in enumerate(self.document["tasks"][: self.plan.ready]):
             lines += [*comment("-" * 100), *self._task_words(index, task)]
-            for number, place in self.places:
-                if place.task == index:
-                    lines += [*self._movement(number, place), ""]
+            for number, (action, move) in self.moves.items():
+                if action.task == index:
+                    lines += [*self._movement(number, action, move), ""]
         if self.plan.blocked:
             lines += comment(f"the plan goes on, and this file does not: {self.plan.blocked[1]}")
             self.plan.lose_blocked(self.ledger)
@@ -115,63 +84,61 @@ class _File:
 
     # ------------------------------------------------------------ movements
 
-    def _movement(self, number: int, place: _Place) -> Iterator[str]:
-        skill = place.step.get("navigation_skill", NO_SKILL)
-        yield from comment(f"{place.name}: {skill['name']} {compact_json(skill['parameters'])}")
+    def _movement(self, number: int, action: Action, move: Move) -> Iterator[str]:
+        name, skill = f"{action.entry['id']}_{action.number + 1}", action.skill
+        yield from comment(f"{name}: {skill['name']} {compact_json(skill['parameters'])}")
         for key in LISTS:
-            if place.step.get(key):
-                yield from comment(f"{key.replace('_', ' ')}: {'; '.join(place.step[key])}")
-        if place.at:
-            self._account(place.at, place.step, place.move)
-            if own := self.plan.hold_time(place.task):
-                self.ledger.carry("tasks", place.task, "parameters", own[0])
+            if action.step.get(key):
+                yield from comment(f"{key.replace('_', ' ')}: {'; '.join(action.step[key])}")
+        if action.step:
+            self._account(action, move)
         else:
-            known = self.vocabulary.task[self.tasks[place.task]["title"]]
-            self.ledger.carry("tasks", place.task, "parameters", known.position_parameter or "")
+            known = self.vocabulary.task[action.entry["title"]]
+            self.ledger.carry("tasks", action.task, "parameters", known.position_parameter or "")
         base = [("pwt", "100"), ("condition", "DEPLOY = true"), ("condition", f"{STEP} = {number}")]
         # The helm takes no name that another one begins with: "t1_1" and "t1_10" could not stand in
         # one file.
-        flags: list[tuple[str, str]] = [*self._flags(number, place)]
-        for ending, (kind, settings) in zip(("move", "speed"), place.move.behaviours, strict=False):
-            yield from block(kind, f"{place.name}_{ending}", [*base, *flags, *settings])
+        flags: list[tuple[str, str]] = [*self._flags(number, action, move)]
+        for ending, (kind, settings) in zip(("move", "speed"), move.behaviours, strict=False):
+            yield from block(kind, f"{name}_{ending}", [*base, *flags, *settings])
             flags = []
 
-    def _flags(self, number: int, place: _Place) -> Iterator[tuple[str, str]]:
+    def _flags(self, number: int, action: Action, move: Move) -> Iterator[tuple[str, str]]:
         """The skills beside the movement, on while the step lasts; and the next step."""
-        beside = [skill for role, skill in step_skills(place.step) if role != "navigation"]
+        beside = [skill for role, skill in step_skills(action.step) if role != "navigation"]
         for skill in beside:
             given = skill["parameters"].items()
             texts = {key: one if isinstance(one, str) else compact_json(one) for key, one in given}
             state = "; ".join(["on", *(f"{key}={text}" for key, text in texts.items())])
             yield "activeflag", f"{variable(skill['name'])} = {quoted(state)}"
-        ending = "endflag" if place.move.ends else "idleflag"
+        ending = "endflag" if move.ends else "idleflag"
         for name in dict.fromkeys(skill["name"] for skill in beside):
             yield ending, f"{variable(name)} = {quoted('off')}"
-        if place.move.ends:
+        if move.ends:
             yield "endflag", f"{STEP} = {number + 1}"
-            if number == len(self.places):
+            if number == len(self.moves):
                 yield "endflag", f"MISSION = {'partly' if self.plan.blocked else 'complete'}"
                 yield "endflag", "DEPLOY = false"
 
-    def _account(self, at: Path, step: Mapping[str, Any], move: Move) -> None:
+    def _account(self, action: Action, move: Move) -> None:
         """Enter what becomes of a step's movement and words; `_filters` enters its other skills."""
-        skill, steered = step["navigation_skill"], (*at, "navigation_skill")
-        self.ledger.carry(*steered, "name", form="" if move.ends else TABLE["unended"])
+        name = (*action.at, "navigation_skill", "name")
+        self.ledger.carry(*name, form="" if move.ends else TABLE["unended"])
         if not move.ends:
-            self.ledger.stop(*steered, "name")
-        motion = self.motions.of(skill["name"])
-        roles = {key: role for role, key in motion.parameters.items()} if motion else {}
-        for key in skill["parameters"]:
-            role, path = roles.get(key, key), (*steered, "parameters", key)
+            self.ledger.stop(*name)
+        for role, path in action.roles():
             if role in move.forms:
                 self.ledger.carry(*path, form=move.forms[role])
             else:
                 self.ledger.lose(*path, why=move.losses.get(role, TABLE["no_setting"]))
-        own = self.vocabulary.skill[skill["name"]].stop if move.ends else None
+        if action.timed:
+            self.ledger.carry("tasks", action.task, "parameters", action.timed)
+        stop = self.vocabulary.skill[action.skill["name"]].stop if move.ends else None
         for words in LISTS:
-            for number, text in enumerate(step[words]):
-                kept = words == "stop_conditions" and text == own
-                self.ledger.carry(*at, words, number, form="" if kept else TABLE["texts"][words])
+            for number, text in enumerate(action.step[words]):
+                kept = words == "stop_conditions" and text == stop
+                form = "" if kept else TABLE["texts"][words]
+                self.ledger.carry(*action.at, words, number, form=form)
 
     # ------------------------------------------------------------ filters
 
@@ -183,12 +150,12 @@ class _File:
             region, _form = guard_form("boundary", self.area)
             self.ledger.carry("vehicle", "area", form="" if region else TABLE["area"])
             if region:
-                yield from ((number, "boundary", self.area) for number, _place in self.places)
-        for number, place in self.places:
+                yield from ((number, "boundary", self.area) for number in self.moves)
+        for number, (action, _move) in self.moves.items():
             for key in ("filter_skills", "perception_skills"):
-                for index, skill in enumerate(place.step.get(key, ())):
+                for index, skill in enumerate(action.step.get(key, ())):
                     form, guard = self._guarded(skill)
-                    self.ledger.carry(*(place.at or ()), key, index, form=form)
+                    self.ledger.carry(*action.at, key, index, form=form)
                     if guard:
                         yield (number, *guard)
 

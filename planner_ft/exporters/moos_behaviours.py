@@ -16,9 +16,8 @@ from itertools import groupby
 from typing import Any
 
 from planner_ft.document.track import Leg
-from planner_ft.exporters.formats import TABLES
+from planner_ft.exporters.formats import TABLES, Action
 from planner_ft.exporters.moos_text import Point, Settings, block, number, points
-from planner_ft.vocabulary.motion import Motion
 
 TABLE: dict[str, Any] = TABLES["moos"]
 LOSSES: dict[str, str] = TABLE["losses"]
@@ -47,24 +46,16 @@ class Move:
     losses: Mapping[str, str] = field(default_factory=dict)
 
 
-def move_of(
-    motion: Motion | None,
-    parameters: Mapping[str, Any],
-    leg: Leg | None,
-    cruise_speed: float,
-    time: float | None = None,
-) -> Move | None:
-    """The behaviours of a movement, None where the plan does not say enough for one.
-
-    `motion` is None for a task without skills; `leg` is the movement in the plan's track, None
-    where the track does not know it; `time` is that of the task for a skill that takes none.
-    Metres, seconds.
+def move_of(action: Action, cruise_speed: float) -> Move | None:
+    """The behaviours of a movement, None where the plan does not say enough for one. Metres,
+    seconds.
     """
+    leg, given, motion = action.leg, action.given, action.motion
     speed = leg.metres / leg.seconds if leg and leg.metres and leg.seconds else cruise_speed
-    if motion is None:
+    if not action.step:
         return _go(dict(zip("xy", leg.points[-1], strict=True)) if leg else {}, speed)
-    values = {"time": time, **{role: motion.value(role, parameters) for role in motion.parameters}}
-    given = {role: value for role, value in values.items() if value is not None}
+    if motion is None:
+        return None
     match motion.kind:
         case "go":
             return _go(given, speed)

@@ -25,7 +25,7 @@ NEIGHBOURS = 5
 MOST_TIMES = 5
 """Times that a number is as large as another one, at most, to be in its unit."""
 
-_BY = re.compile(r"\s?(?:by|x|×)\s?", re.IGNORECASE)
+_BY = re.compile(r"\s?(?:by|x|×|\*)\s?", re.IGNORECASE)
 _TIME = re.compile(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])")
 _BETWEEN_TIMES = re.compile(r"\D{1,9}")
 _RARE = re.compile(
@@ -127,7 +127,7 @@ def _plain(row: Row) -> tuple[Number, ...]:
     return tuple(_with_shared_units(row.text, found))
 
 
-def _every(row: Row) -> Iterator[Number]:
+def _every(row: Row) -> list[Number]:
     """The numbers from every token on at which one can begin."""
     found, todo, seen = list[Number](), [0], set[int]()
     while todo:
@@ -259,13 +259,28 @@ def _is_thing(word: str) -> bool:
 # ---------------------------------------------------------------- what numbers say together
 
 
-def _with_shared_units(text: str, numbers: list[Number]) -> Iterator[Number]:
-    """The numbers; "200 by 120 feet" has the unit of both behind the second."""
+def _with_shared_units(text: str, numbers: list[Number]) -> list[Number]:
+    """The numbers; "200 by 120 feet" and "100x60x20 m" have the unit of all behind the last."""
     lengths = {number.start: number for number in numbers if number.unit == "m" and number.factor}
-    for one in numbers:
+    shared = list(numbers)
+    for place in sorted(range(len(numbers)), key=lambda place: -numbers[place].start):
+        one = numbers[place]
         by = _BY.match(text, one.end) if one.unit is None else None
-        two = lengths.get(by.end()) if by else None
-        yield replace(one, value=one.said * two.factor, unit="m", counts=False) if two else one
+        if by and (two := lengths.get(by.end())):
+            made = replace(one, value=one.said * two.factor, unit="m", counts=False)
+            shared[place] = lengths[made.start] = made
+    return shared
+
+
+def rows_of_sizes(text: str) -> list[list[Number]]:
+    """The numbers that are said together: "50 by 60 m", "100x60x20"."""
+    rows = list[list[Number]]()
+    for number in read_numbers(text):
+        if rows and _BY.fullmatch(text, rows[-1][-1].end, number.start):
+            rows[-1].append(number)
+        else:
+            rows.append([number])
+    return [row for row in rows if len(row) > 1]
 
 
 def neighbours(numbers: Iterable[Number], unit: str | None) -> list[Number]:

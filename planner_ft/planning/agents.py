@@ -20,7 +20,7 @@ from planner_ft.vocabulary.plans import Level, plan_problems
 
 if TYPE_CHECKING:
     from planner_ft.decoding.engine import Engine
-    from planner_ft.decoding.generate import Generation
+    from planner_ft.decoding.generate import Generation, Query
 
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""
@@ -74,8 +74,20 @@ class Agents:
         """The agent's answer to a record ({"prompt", ...}), read and checked."""
         engine, agent = self.load(level), self.agents[level]
         query = engine.query(level, record, with_vocabulary=agent.with_vocabulary)
-        generation = engine.answer(query, agent.configuration)
-        text, prompt_tokens = engine.text(generation), len(query.prompt)
+        return self._read(engine, query, engine.answer(query, agent.configuration))
+
+    def ask_all(self, level: Level, records: Sequence[dict[str, Any]]) -> list[Answer]:
+        """The agent's answers to records in one batch: the same as one by one, and sooner."""
+        engine, agent = self.load(level), self.agents[level]
+        queries = [
+            engine.query(level, record, with_vocabulary=agent.with_vocabulary) for record in records
+        ]
+        given = dict(engine.answers(queries, agent.configuration, batch_size=len(queries)))
+        return [self._read(engine, query, given[at]) for at, query in enumerate(queries)]
+
+    def _read(self, engine: Engine, query: Query, generation: Generation) -> Answer:
+        level, prompt_tokens = query.level, len(query.prompt)
+        text = engine.text(generation)
         answer = read_answer(level, text, generation, prompt_tokens, self.vocabulary)
         if answer.plan is None:
             return answer

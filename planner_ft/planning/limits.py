@@ -7,9 +7,10 @@ for it: planning carries it into the steps as a filter (planner_ft.document.limi
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
+from planner_ft.facts import read
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import (
     Limit,
@@ -18,6 +19,7 @@ from planner_ft.vocabulary.limits import (
     prompt_sentence,
     read_limit,
     sentence,
+    slots,
 )
 
 GENERAL = ("fence", "keep_out_area", "keep_out", "clearance", "distance", "speed")
@@ -40,12 +42,13 @@ def with_limits(
     plan: Mapping[str, Any], vocabulary: Vocabulary, command: str | None = None
 ) -> dict[str, Any]:
     """The mission plan with its limits in the prompts of all tasks, and those that stand in one
-    prompt alone among its constraints. A time of return that the command does not say is left out.
+    prompt alone among its constraints. A time of return that the command does not say is left out,
+    and one that is a duration is a time to be back within.
     """
     limits = load_limits(vocabulary)
-    constraints = [text for text in plan.get("constraints", ()) if _said(text, command, limits)]
+    constraints = list(_kept(plan.get("constraints", ()), command, limits, sentence))
     prompts = [
-        [text for text in SENTENCE.split(task["task_prompt"]) if _said(text, command, limits)]
+        list(_kept(SENTENCE.split(task["task_prompt"]), command, limits, prompt_sentence))
         for task in plan["tasks"]
     ]
     stated = limits_in(constraints, limits)
@@ -91,11 +94,25 @@ def forbidden_skills(prompt: str, vocabulary: Vocabulary) -> set[str]:
     return {name for limit in holding for name in limits[limit.kind].forbids}
 
 
-def _said(text: str, command: str | None, limits: Limits) -> bool:
-    """Whether a sentence is no time of return, or one in the command's words."""
-    limit = read_limit(text, limits)
-    time = limit.values["time"] if limit and limit.kind == "return" else ""
-    return command is None or str(time).casefold() in command.casefold()
+def time_left(values: Mapping[str, Any]) -> float | None:
+    """Seconds to be back within, where a time of return is a duration ("40 minutes")."""
+    readings = read(str(values.get("within") or values["time"])).numbers("s")
+    return readings[0].value if len(readings) == 1 and readings[0].unit == "s" else None
+
+
+def _kept(
+    texts: Iterable[str], command: str | None, limits: Limits, write: Callable[..., str]
+) -> Iterator[str]:
+    """Sentences without times of return that the command does not say."""
+    for text in texts:
+        limit = read_limit(text, limits)
+        time = limit.values.get("time") if limit and limit.kind == "return" else None
+        if limit is None or time is None:
+            yield text
+        elif command is None or str(time).casefold() in command.casefold():
+            known = {name for form in limits["return"].sentences for name in slots(form)}
+            lasts = "within" in known and not limit.titles and time_left(limit.values) is not None
+            yield write("return", {"within": time}, limits) if lasts else text
 
 
 def _same(one: Limit, other: Limit) -> bool:

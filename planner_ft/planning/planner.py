@@ -25,6 +25,7 @@ from planner_ft.planning.locations import (
 from planner_ft.planning.passes import with_pass
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
+from planner_ft.planning.shapes import with_shape
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.geodesy import Origin
@@ -154,10 +155,11 @@ class Planner:
         if answer.plan is None:
             return answer
         steps, ends = with_pass(filled, answer.plan["skill_sequence"], self.vocabulary)
+        steps, shaped = with_shape(filled, steps, self.vocabulary)
         steps, added = with_essentials(filled, steps, self.vocabulary)
         defaults = missing_defaults(task, self.vocabulary)
         plan = {"skill_sequence": steps}
-        return replace(answer, plan=plan, defaults=defaults, added=(*ends, *added))
+        return replace(answer, plan=plan, defaults=defaults, added=(*ends, *shaped, *added))
 
     def __enter__(self) -> Planner:
         return self

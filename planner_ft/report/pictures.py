@@ -17,7 +17,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.curve.points import SHOWN, Point
+from planner_ft.benchmark.curve import SHOWN, Point
 from planner_ft.report.charts import WORDS, Chart, cell
 from planner_ft.support.files import atomic_writer
 from planner_ft.support.tables import NOTHING, Bounds, Cell, Table, TableRow

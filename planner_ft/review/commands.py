@@ -6,6 +6,7 @@ import json
 import re
 import tomllib
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ Edit = dict[str, Any]
 HELP: dict[str, str] = tomllib.loads(read_text(Path(__file__).with_name("commands.toml")))
 """Examples of edits, with their effect."""
 CHOICE = re.compile(rf"(\d)([{LETTERS}])")
+WORDS = ("remove", "move", "locate", "prompt", "insert", "origin", "constraint", "skills", "undo")
 VALUE = re.compile(r"(\d+(?:\.[\w#]+)+)\s*=\s*(.*)", re.DOTALL)
 
 
@@ -30,73 +32,157 @@ def parse_edit(text: str, document: PlanDocument, vocabulary: Vocabulary) -> Edi
 
     Raises PlannerError that says what was expected.
     """
-    text = text.strip()
-    assigned = VALUE.fullmatch(text)
-    if assigned:
-        return _assignment(assigned[1].split("."), assigned[2].strip(), document, vocabulary)
+    text, typed = text.strip(), _Typed(document, vocabulary)
+    if assigned := VALUE.fullmatch(text):
+        return typed.assignment(assigned[1].split("."), assigned[2].strip())
     if chosen := CHOICE.fullmatch(text):
-        return _choice(int(chosen[1]), chosen[2], document)
+        return typed.choice(int(chosen[1]), chosen[2])
     word, rest = [*text.split(maxsplit=1), "", ""][:2]
-    match word.lower():
-        case "remove":
-            return _remove(rest, document)
-        case "move":
-            return _move(rest, document)
-        case "locate":
-            return _locate(rest, document)
-        case "prompt":
-            return _prompt(rest, document)
-        case "insert":
-            return _insert(rest, vocabulary)
-        case "origin":
-            return {"kind": "origin", "place": rest}
-        case "constraint":
-            return _constraint(rest)
-        case "skills":
-            return {"kind": "ask", "tasks": _asked(rest, document)}
-        case "undo" if not rest:
-            return {"kind": "undo"}
-        case "undo":
-            raise PlannerError(f"{text}: takes the last edit back and needs nothing after it")
-    raise PlannerError(f"{text!r}: is no edit; there is {', '.join(HELP)}")
+    if word.lower() not in WORDS:
+        raise PlannerError(f"{text!r}: is no edit; there is {', '.join(HELP)}")
+    edit: Edit = getattr(typed, word.lower())(rest)
+    return edit
 
 
-def _choice(number: int, letter: str, document: PlanDocument) -> Edit:
-    """The alternative of a question."""
-    asked = document.get("choices", [])
-    if not 1 <= number <= len(asked):
-        there = f"there are {len(asked)}" if asked else "there are none"
-        raise PlannerError(f"{number}{letter}: is no question of the plan; {there}")
-    choice, at = asked[number - 1], LETTERS.index(letter)
-    if at >= len(choice["others"]):
-        last = f"{number}{LETTERS[len(choice['others']) - 1]}"
-        raise PlannerError(f"{number}{letter}: the question has no such answer; the last is {last}")
-    value, task = choice["others"][at], choice["task"]
-    if choice["parameter"] is None:
-        return {"kind": "title", "task": task, "title": value}
-    return {"kind": "parameter", "task": task, "name": choice["parameter"], "value": value}
+@dataclass(frozen=True)
+class _Typed:
+    """Reads what is typed about a plan; one method per word, for what stands behind it."""
 
+    document: PlanDocument
+    vocabulary: Vocabulary
 
-# ---------------------------------------------------------------- NUMBER.NAME=VALUE
-
-
-def _assignment(
-    path: list[str], value: str, document: PlanDocument, vocabulary: Vocabulary
-) -> Edit:
-    task, name = _task(path[0], document), path[-1]
-    if len(path) == 2:
-        title = task["title"]
-        parameter = _parameter(name, title, vocabulary.task[title].by_name)
-        edit = {"kind": "parameter", "task": task["id"]}
-    else:
+    def assignment(self, path: list[str], value: str) -> Edit:
+        """NUMBER.NAME=VALUE, or a value of a skill."""
+        task, name = self._task(path[0]), path[-1]
+        if len(path) == 2:
+            title = task["title"]
+            parameter = _parameter(name, title, self.vocabulary.task[title].by_name)
+            return _edit("parameter", task, name=name, value=_value(value, parameter))
         step = _number(path[1])
         if step is None or len(path) > 4:
             forms = "TASK.PARAMETER, TASK.STEP.PARAMETER or TASK.STEP.SKILL.PARAMETER"
-            raise PlannerError(f"{'.'.join(path)}: expected {forms}, such as 2.1.GoToXY.x")
+            raise _expected(".".join(path), forms, "2.1.GoToXY.x")
         role, index, skill = _skill(task, step, path[2] if len(path) == 4 else None)
-        parameter = _parameter(name, skill, vocabulary.skill[skill].by_name)
-        edit = {"kind": "skill", "task": task["id"], "step": step - 1, "role": role, "index": index}
-    return {**edit, "name": name, "value": _value(value, parameter)}
+        parameter = _parameter(name, skill, self.vocabulary.skill[skill].by_name)
+        where = {"step": step - 1, "role": role, "index": index}
+        return _edit("skill", task, **where, name=name, value=_value(value, parameter))
+
+    def choice(self, number: int, letter: str) -> Edit:
+        """The alternative of a question."""
+        asked, at = self.document.get("choices", []), LETTERS.index(letter)
+        if not 1 <= number <= len(asked):
+            there = f"there are {len(asked)}" if asked else "there are none"
+            raise PlannerError(f"{number}{letter}: is no question of the plan; {there}")
+        others, name = asked[number - 1]["others"], asked[number - 1]["parameter"]
+        if at >= len(others):
+            last = f"the last is {number}{LETTERS[len(others) - 1]}"
+            raise PlannerError(f"{number}{letter}: the question has no such answer; {last}")
+        task = {"id": asked[number - 1]["task"]}
+        if name is None:
+            return _edit("title", task, title=others[at])
+        return _edit("parameter", task, name=name, value=others[at])
+
+    def remove(self, rest: str) -> Edit:
+        """A task by its number, or a skill by TASK.SKILL or TASK.STEP.SKILL."""
+        number, *path = rest.split(".")
+        task = self._task(number)
+        if len(path) < 2:
+            return _edit("drop", task, name=path[0]) if path else _edit("remove", task)
+        step = _number(path[0])
+        if not step or len(path) > 2:
+            forms = "TASK, TASK.SKILL or TASK.STEP.SKILL"
+            raise _expected(f"remove {rest}", forms, "remove 2.1.GetSeabedDepth")
+        return _edit("drop", task, name=path[1], step=step - 1)
+
+    def move(self, rest: str) -> Edit:
+        number, _blank, place = rest.partition(" ")
+        to = _number(place.strip())
+        if to is None:
+            forms = "the number of a task and the place that it is to have"
+            raise _expected(f"move {rest}", forms, "move 3 1")
+        return _edit("move", self._task(number), to=to - 1)
+
+    def locate(self, rest: str) -> Edit:
+        name, position = parse_location(rest)
+        known = [place["name"] for place in self.document["open_places"]]
+        known += self.document["located"]
+        same = [other for other in known if other.casefold() == name.casefold()]
+        return {"kind": "locate", "name": [*same, name][0], "position": list(position)}
+
+    def prompt(self, rest: str) -> Edit:
+        number, equals, text = rest.partition("=")
+        if not equals:
+            example = "prompt 2 = Circle the buoy at 12 m."
+            raise _expected(f"prompt {rest}", "the number of a task and its new prompt", example)
+        return _edit("prompt", self._task(number.strip()), text=text.strip())
+
+    def insert(self, rest: str) -> Edit:
+        place, title, given = [*rest.split(maxsplit=2), "", "", ""][:3]
+        at = _number(place)
+        if at is None or not title:
+            forms, example = "a place, a task and its parameters", "target_position=[0,0]"
+            raise _expected(f"insert {rest}", forms, f"insert 2 Transit {example}")
+        if title not in self.vocabulary.task:
+            there = ", ".join(self.vocabulary.task)
+            raise PlannerError(f"{title}: is no task of this vehicle; there is {there}")
+        known = self.vocabulary.task[title].by_name
+        names = (*known, "prompt")
+        before, *found = re.split(rf"(?:^|\s)({'|'.join(map(re.escape, names))})\s*=", given)
+        if unknown := before.strip():
+            problem = f"{unknown!r} is no parameter of {title}; there is {', '.join(names)}"
+            raise PlannerError(f"insert {rest}: {problem}")
+        values = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
+        prompt = values.pop("prompt", "")
+        parameters = {name: _value(value, known[name]) for name, value in values.items()}
+        inserted = {"title": title, "parameters": parameters, "task_prompt": prompt}
+        return {"kind": "insert", "at": at - 1, **inserted}
+
+    def origin(self, rest: str) -> Edit:
+        return {"kind": "origin", "place": rest}
+
+    def constraint(self, rest: str) -> Edit:
+        number, _blank, text = rest.partition(" ")
+        at, said = _number(number), {"text": text.strip()} if text.strip() else {}
+        if not at:
+            problem = "expected its number, and its new text or nothing"
+            raise PlannerError(f"constraint {rest}: {problem}")
+        return {"kind": "constraint", "at": at - 1, **said}
+
+    def skills(self, rest: str) -> Edit:
+        """The task of a number; without one every task that waits for skills."""
+        tasks = [self._task(rest)] if rest else self.document["tasks"]
+        asked = [
+            task["id"]
+            for task in tasks
+            if rest
+            or (
+                not {"waits_for", "asks"} & task.keys()
+                and (task["skill_sequence"] is None or task.get("stale"))
+            )
+        ]
+        return {"kind": "ask", "tasks": asked}
+
+    def undo(self, rest: str) -> Edit:
+        if rest:
+            problem = "takes the last edit back and needs nothing after it"
+            raise PlannerError(f"undo {rest}: {problem}")
+        return {"kind": "undo"}
+
+    def _task(self, number: str) -> dict[str, Any]:
+        tasks: list[dict[str, Any]] = self.document["tasks"]
+        place = _number(number)
+        if place is None or not 1 <= place <= len(tasks):
+            there = f"tasks 1 to {len(tasks)}" if tasks else "no tasks"
+            raise PlannerError(f"task {number or '?'}: the plan has {there}")
+        return tasks[place - 1]
+
+
+def _edit(kind: str, task: Mapping[str, Any], **more: Any) -> Edit:
+    return {"kind": kind, "task": task["id"], **more}
+
+
+def _expected(typed: str, forms: str, example: str) -> PlannerError:
+    return PlannerError(f"{typed}: expected {forms}, such as {example}")
 
 
 def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int, str]:
@@ -135,102 +221,6 @@ def _value(text: str, parameter: Parameter) -> Any:
     except (ValueError, RecursionError):
         return text
     return text if parameter.type == "text" and not isinstance(value, str) else value
-
-
-# ---------------------------------------------------------------- WORD ...
-
-
-def _remove(rest: str, document: PlanDocument) -> Edit:
-    """A task by its number, or a skill by TASK.SKILL or TASK.STEP.SKILL."""
-    number, *path = rest.split(".")
-    task = _task(number, document)["id"]
-    if not path:
-        return {"kind": "remove", "task": task}
-    edit = {"kind": "drop", "task": task, "name": path[-1]}
-    if len(path) == 1:
-        return edit
-    step = _number(path[0])
-    if not step or len(path) > 2:
-        expected = "expected TASK, TASK.SKILL or TASK.STEP.SKILL"
-        raise PlannerError(f"remove {rest}: {expected}, such as remove 2.1.GetSeabedDepth")
-    return {**edit, "step": step - 1}
-
-
-def _constraint(rest: str) -> Edit:
-    number, _blank, text = rest.partition(" ")
-    at = _number(number)
-    if not at:
-        raise PlannerError(f"constraint {rest}: expected its number, and its new text or nothing")
-    return {"kind": "constraint", "at": at - 1, **({"text": text.strip()} if text.strip() else {})}
-
-
-def _move(rest: str, document: PlanDocument) -> Edit:
-    number, _blank, place = rest.partition(" ")
-    to = _number(place.strip())
-    if to is None:
-        expected = "expected the number of a task and the place that it is to have"
-        raise PlannerError(f"move {rest}: {expected}, such as move 3 1")
-    return {"kind": "move", "task": _task(number, document)["id"], "to": to - 1}
-
-
-def _locate(rest: str, document: PlanDocument) -> Edit:
-    name, position = parse_location(rest)
-    known = [*(place["name"] for place in document["open_places"]), *document["located"]]
-    same = [other for other in known if other.casefold() == name.casefold()]
-    return {"kind": "locate", "name": same[0] if same else name, "position": list(position)}
-
-
-def _prompt(rest: str, document: PlanDocument) -> Edit:
-    number, equals, text = rest.partition("=")
-    if not equals:
-        expected = "expected the number of a task and its new prompt"
-        example = "prompt 2 = Circle the buoy at 12 m."
-        raise PlannerError(f"prompt {rest}: {expected}, such as {example}")
-    return {"kind": "prompt", "task": _task(number.strip(), document)["id"], "text": text.strip()}
-
-
-def _insert(rest: str, vocabulary: Vocabulary) -> Edit:
-    place, title, given = [*rest.split(maxsplit=2), "", "", ""][:3]
-    at = _number(place)
-    if at is None or not title:
-        example = "insert 2 Transit target_position=[0,0]"
-        expected = "expected a place, a task and its parameters"
-        raise PlannerError(f"insert {rest}: {expected}, such as {example}")
-    if title not in vocabulary.task:
-        there = ", ".join(vocabulary.task)
-        raise PlannerError(f"{title}: is no task of this vehicle; there is {there}")
-    known = vocabulary.task[title].by_name
-    names = (*known, "prompt")
-    before, *found = re.split(rf"(?:^|\s)({'|'.join(map(re.escape, names))})\s*=", given)
-    if unknown := before.strip():
-        problem = f"{unknown!r} is no parameter of {title}; there is {', '.join(names)}"
-        raise PlannerError(f"insert {rest}: {problem}")
-    values = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
-    prompt = values.pop("prompt", "")
-    parameters = {name: _value(value, known[name]) for name, value in values.items()}
-    inserted = {"title": title, "parameters": parameters, "task_prompt": prompt}
-    return {"kind": "insert", "at": at - 1, **inserted}
-
-
-def _asked(rest: str, document: PlanDocument) -> list[str]:
-    """The task of a number; without one every task that waits for skills."""
-    if rest:
-        return [_task(rest, document)["id"]]
-    return [
-        task["id"]
-        for task in document["tasks"]
-        if not {"waits_for", "asks"} & task.keys()
-        and (task["skill_sequence"] is None or task.get("stale"))
-    ]
-
-
-def _task(number: str, document: PlanDocument) -> dict[str, Any]:
-    tasks: list[dict[str, Any]] = document["tasks"]
-    place = _number(number)
-    if place is None or not 1 <= place <= len(tasks):
-        there = f"tasks 1 to {len(tasks)}" if tasks else "no tasks"
-        raise PlannerError(f"task {number or '?'}: the plan has {there}")
-    return tasks[place - 1]
 
 
 def _number(text: str) -> int | None:

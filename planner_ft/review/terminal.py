@@ -15,7 +15,7 @@ from planner_ft.document.confidence import choice_lines, confidence_lines
 from planner_ft.document.differences import Difference
 from planner_ft.document.track import track
 from planner_ft.document.tree import constraint_lines, task_tree
-from planner_ft.document.warnings.severity import gravest_first, meaning
+from planner_ft.document.warnings.kinds import gravest_first, meaning
 from planner_ft.planning.frame import origin_of
 from planner_ft.review.changes import tampered
 from planner_ft.review.chart import chart

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from planner_ft.document.clearance import MARGIN
+from planner_ft.document.structures import MARGIN
 from planner_ft.simulation.fast import Bools, Floats, Runs, turned, wrapped
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill

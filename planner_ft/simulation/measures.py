@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, wilson
-from planner_ft.document.clearance import SAME
+from planner_ft.document.structures import SAME
 from planner_ft.simulation.executor import Executor, Running, Stage
 from planner_ft.simulation.fast import Bools, Floats, Runs
 from planner_ft.simulation.scene import Scene

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.document.clearance import ROUND, Allowed, Structure, fence, structures
 from planner_ft.document.limits import limits_of
+from planner_ft.document.structures import ROUND, Allowed, Structure, fence, structures
 from planner_ft.document.track import Leg, Point, place_of
 from planner_ft.exporters.formats import PlanExport
 from planner_ft.simulation.executor import Stage

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.benchmark.gate import Kind, key_problems
+from planner_ft.benchmark.definitions import Kind, key_problems
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.document import build, read_document, write_document
 from planner_ft.document.track import Point

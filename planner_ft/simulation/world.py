@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.document.clearance import Allowed, Structure
+from planner_ft.document.structures import Allowed, Structure
 from planner_ft.document.track import Point
 from planner_ft.simulation.fast import Floats, Runs
 from planner_ft.simulation.faults import Faults

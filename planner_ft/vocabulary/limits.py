@@ -31,6 +31,7 @@ READ = {
     "duration": NUMBER,
     "object": r"[^\[\]]+?",
     "time": r".+?",
+    "within": r".+?",
 }
 """How the values of a limit are written, by name: positions and numbers, else words."""
 NUMBERS = ("distance", "speed", "duration")

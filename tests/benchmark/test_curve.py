@@ -18,10 +18,17 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from planner_ft.benchmark import folder
-from planner_ft.benchmark.curve import units
-from planner_ft.benchmark.curve.points import Point, answer, compared, write_curve
-from planner_ft.benchmark.curve.units import Curve, begin, prepare, run_units
+from planner_ft.benchmark import folder, units
+from planner_ft.benchmark.curve import (
+    Curve,
+    Point,
+    answer,
+    begin,
+    compared,
+    prepare,
+    run_units,
+    write_curve,
+)
 from planner_ft.benchmark.results import Measured, System, assemble
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.cli.app import app
@@ -67,7 +74,7 @@ class Runs:
         self.interrupt: int | None = None
         self.failure: str | None = None
 
-    def __call__(self, arguments: list[str], log: Path) -> Runs:
+    def __call__(self, arguments: list[str], log: Path, processes: int) -> Runs:
         self.started.append(arguments)
         return self
 
@@ -116,7 +123,7 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Runs:
 
 def run(curve: Curve, **rerun: bool) -> None:
     begin(curve, **{"resume": False, "overwrite": False} | rerun)
-    run_units(curve, lambda _step, _text: None)
+    run_units(curve, lambda _state: None)
 
 
 def trained(curve: Curve) -> dict[str, list[str]]:

@@ -40,8 +40,8 @@ def test_what_the_vehicle_adds_is_counted_apart_from_the_agents(tmp_path: Path) 
     path = tmp_path / "demands.jsonl"
     path.write_text(json.dumps(RECORD) + "\n")
     cases = load_demands([path], USV)
-    judged = judge(cases, planned, USV, lambda _label, _done, _total: None, "")
-    row = Row("embedded", "lora", judged, USV)
+    judged = judge(cases, [planned(case) for case in cases], USV)
+    row = Row("embedded", "lora", USV, judged)
     assert [(one["skill"], one["agents"], one["plan"]) for one in Demands().lines(row)] == [
         ("GetSeabedDepth", False, True),
         ("SetStreamRecording", False, False),

@@ -110,9 +110,16 @@ def test_cases_are_run_from_the_shell(tmp_path: Path) -> None:
     assert results["manifest"]["inputs"][str(cases)]["sha256"]
     assert len(read_jsonl(out / "plans.jsonl")) == 3
     assert "b (limit)" in (out / "table.md").read_text()
+    plans, table = (out / "plans.jsonl").read_text(), (out / "table.md").read_text()
+    assert CliRunner().invoke(app, [*words, "--resume"]).exit_code == 0
+    assert (out / "plans.jsonl").read_text() == plans and (out / "table.md").read_text() == table
+    write(cases, {**GOOD, "command": "Go to [41, 20]."})
+    other = CliRunner().invoke(app, [*words, "--resume"])
+    assert "are not of this run; give --overwrite" in str(other.exception)
+    write(cases, GOOD, wrong, lost)
     again = CliRunner().invoke(app, words)
-    assert again.exit_code != 0 and "--overwrite" in str(again.exception)
-    for flags in (["--level", "task"], ["--resume"], ["--data", str(cases)]):
+    assert again.exit_code != 0 and "--resume to go on" in str(again.exception)
+    for flags in (["--level", "task"], ["--repeats", "2"], ["--data", str(cases)]):
         refused = CliRunner().invoke(app, [*words, *flags])
         assert "leave out" in str(refused.exception)
     assert "stand behind --field" in str(CliRunner().invoke(app, ["bench", str(cases)]).exception)

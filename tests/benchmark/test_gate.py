@@ -10,7 +10,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.gate import load_gate
+from planner_ft.benchmark.definitions import load_gate
 from planner_ft.cli.bench import bench
 from planner_ft.support.errors import GateError, PlannerError
 

@@ -15,8 +15,12 @@ from planner_ft.benchmark.metrics.failures import (
     schema_valid,
     strict_valid,
 )
-from planner_ft.benchmark.metrics.names import exact_sequence, set_counts
-from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
+from planner_ft.benchmark.metrics.names import (
+    Parameters,
+    compare_parameters,
+    exact_sequence,
+    set_counts,
+)
 from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample

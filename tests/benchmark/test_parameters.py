@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
-from planner_ft.benchmark.metrics.names import Counts
-from planner_ft.benchmark.metrics.parameters import Parameters, compare_parameters
+from planner_ft.benchmark.metrics.names import Counts, Parameters, compare_parameters
 from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.vocabulary import Parameter, load_vocabulary
 

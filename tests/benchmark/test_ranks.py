@@ -11,7 +11,7 @@ import subprocess
 from pathlib import Path
 
 from planner_ft.benchmark.folder import RecordLog
-from planner_ft.benchmark.suite.units import command
+from planner_ft.benchmark.units import command
 from planner_ft.support.ranks import Ranks
 
 NAME = "Llama-3.2-1B-Instruct"

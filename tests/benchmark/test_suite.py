@@ -11,18 +11,17 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.suite import session as session_module
-from planner_ft.benchmark.suite import units as process_module
-from planner_ft.benchmark.suite.definition import load_suite
-from planner_ft.benchmark.suite.run import combine, run_suite
-from planner_ft.benchmark.suite.session import State, opened
-from planner_ft.benchmark.suite.units import Process
+from planner_ft.benchmark import units
+from planner_ft.benchmark.definitions import load_suite
+from planner_ft.benchmark.suite.run import combine, opened, run_suite
+from planner_ft.benchmark.units import Process, State, Units
 from planner_ft.cli.bench import bench
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
@@ -179,13 +178,9 @@ class _Run:
 @pytest.fixture
 def runs(monkeypatch: pytest.MonkeyPatch) -> Runs:
     made = Runs()
-    values = {"start": made, "sleep": made.sleep, "clock": lambda: made.now}
-    original = session_module.Session
-
-    def session(*args: Any) -> Any:
-        return original(*args, **values)
-
-    monkeypatch.setattr(session_module, "Session", session)
+    monkeypatch.setattr(units, "Process", made)
+    clock = SimpleNamespace(sleep=made.sleep, monotonic=lambda: made.now)
+    monkeypatch.setattr(units, "time", clock)
     return made
 
 
@@ -364,8 +359,9 @@ def test_two_suites_do_not_share_a_folder(suite_file: Path, tmp_path: Path) -> N
 
 
 def test_what_is_not_run_yet_is_said(suite_file: Path, runs: Runs, tmp_path: Path) -> None:
-    session = opened(load_suite(suite_file), tmp_path / "out", {}, lambda _state: None)
-    parts, _manifest = combine(session)
+    suite = load_suite(suite_file)
+    made = opened(suite, tmp_path / "out", {})
+    parts, _manifest = combine(suite, made, Units(made, lambda _state: None), {})
     assert {entry["reason"] for part in parts for entry in part.failed} == {"not run yet"}
 
 
@@ -424,7 +420,7 @@ def test_a_process_ends_with_the_suite_that_started_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
-        process_module,
+        units,
         "command",
         lambda _arguments, _processes: [sys.executable, "-c", "import time; time.sleep(1e4)"],
     )

@@ -254,7 +254,7 @@ vehicle check nobody
 vehicle check FOLDER
 bench --field --level mission --candidates embedded --out OUT
 bench --field /nowhere --candidates embedded --out OUT
-bench --field --candidates embedded --resume --out OUT
+bench --field --candidates embedded --resume --overwrite --out OUT
 bench --level both --candidates embedded --data BINARY --out OUT
 bench --level both --candidates embedded --data LIST --out OUT
 bench --level both --candidates embedded --adapter x --out OUT

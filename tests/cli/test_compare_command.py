@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from planner_ft.benchmark.folder import write_results
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.benchmark.submission import score_predictions
-from planner_ft.cli.compare import compare
+from planner_ft.cli.bench import compare
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 

@@ -20,6 +20,7 @@ from planner_ft.benchmark import calibrate
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.review import approve, log_beside
+from planner_ft.support.files import write_jsonl
 from tests.documents import USV, document, step, task
 from tests.kills import changes
 
@@ -36,6 +37,9 @@ COMMANDS = {
     "bench": f"bench --level mission --candidates {STANDIN} --configurations base"
     " --data DATA --max-new-tokens 40 --batch-size 1 --latency-samples 0 --device cpu --out OUT/run --no-report"
     " --resume",
+    "bench of field cases": "bench --field CASES --configurations lora+schema --out OUT/run --resume",
+    "bench of both agents": "bench --level both --data DEMANDS --configurations lora+schema"
+    " --out OUT/run --resume",
     "calibrate": "calibrate DATA --adapter OUT/adapter --configuration lora+schema --out OUT/run",
     "simulate": "simulate PLAN --runs 2 --mcap 0 --out OUT/simulation --overwrite",
     "export": f"export --merge --candidate {STANDIN} --adapter ADAPTER --checks 1 --check-data DATA"
@@ -43,7 +47,8 @@ COMMANDS = {
 }
 COMPARED = ("*.jsonl", "*.safetensors", "*.csv", "calibration.json")
 """Files without times; of logs what has none."""
-TIMED = {"seconds", "tokens_per_s", "time_s", "latency_s"}
+TIMED = {"seconds", "tokens_per_s", "time_s", "latency_s", "load_seconds"}
+TIMED |= {"peak_memory_bytes", "manifest", "digest"}
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +64,24 @@ def inputs(tmp_path_factory: pytest.TempPathFactory, standins: Path) -> dict[str
     model = AutoModelForCausalLM.from_pretrained(standins / STANDIN)
     settings = LoraConfig(r=2, target_modules=["q_proj"], init_lora_weights=False)
     get_peft_model(model, settings).save_pretrained(folder / "adapter")
-    return {"DATA": folder / "data.jsonl", "PLAN": plan, "ADAPTER": folder / "adapter"}
+    commands = "Go to [40, 20].", "Hold at [10, 5] for a minute.", "Come home."
+    cases = [
+        {"id": str(index), "kind": "ordinary", "command": text, "expect": [{"outcome": "home"}]}
+        for index, text in enumerate(commands)
+    ]
+    write_jsonl(folder / "cases.jsonl", cases)
+    wanted = {"skills": [{"task": "Transit", "skills": ["GoToXY"]}]}
+    demands = [{"id": one["id"], "prompt": one["command"], **wanted} for one in cases]
+    write_jsonl(folder / "demands.jsonl", demands)
+    found = {"DATA": "data.jsonl", "CASES": "cases.jsonl", "DEMANDS": "demands.jsonl"}
+    files = {key: folder / name for key, name in found.items()}
+    return {**files, "PLAN": plan, "ADAPTER": folder / "adapter"}
+
+
+def timeless(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: timeless(one) for key, one in value.items() if key not in TIMED}
+    return [timeless(one) for one in value] if isinstance(value, list) else value
 
 
 def content(folder: Path) -> dict[str, Any]:
@@ -67,8 +89,7 @@ def content(folder: Path) -> dict[str, Any]:
     for path in sorted({path for one in COMPARED for path in folder.rglob(one)}):
         name = str(path.relative_to(folder))
         if path.suffix == ".jsonl":
-            lines = [json.loads(line) for line in path.read_text().splitlines()]
-            found[name] = [{key: line[key] for key in line.keys() - TIMED} for line in lines]
+            found[name] = [timeless(json.loads(line)) for line in path.read_text().splitlines()]
         else:
             found[name] = path.read_bytes()
     return found
@@ -108,4 +129,8 @@ def test_a_killed_command_is_gone_on_with(
         changes(again, killed, last)
     assert changes(again, killed) is not None
     assert content(killed) == content(whole) != {}
+    if name.startswith("bench of"):
+        results = [json.loads((one / "run/results.json").read_text()) for one in (killed, whole)]
+        assert results[0]["rows"] == results[1]["rows"]
+        assert (killed / "run/table.md").read_text() == (whole / "run/table.md").read_text()
     assert not [path for path in killed.rglob("*") if path.name.endswith(".tmp")]

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from planner_ft.document import apply
-from planner_ft.document.clearance import fence, structures, way_off, way_round
+from planner_ft.document.clearance import way_round
 from planner_ft.document.ontology import named_places
+from planner_ft.document.structures import fence, structures, way_off
 from planner_ft.document.track import track
 from tests.documents import USV, document, step, task
 
@@ -57,7 +58,10 @@ def test_an_orbit_is_entered_on_its_circle_and_left_round_it(arc: float) -> None
     assert "skill-value-not-said" not in kinds(plan)
 
 
-@pytest.mark.parametrize("name", ["green buoy", "mooring buoy", "light of the harbour"])
+NAMES = ["green buoy", "mooring buoy", "light of the harbour", "platform leg"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff(name: str) -> None:
     plan = document([transit(60, 0, f"Go to the {name} at [60, 0]."), transit(100, 0)])
     assert waypoints(plan)[0] == [50, 0]
@@ -65,6 +69,31 @@ def test_a_thing_that_the_prompt_names_has_the_vehicles_standoff(name: str) -> N
     assert waypoints(plan)[-1] == [100, 0]
     (buoy,) = structures(plan, USV)
     assert (buoy.name, buoy.standoff) == (f"the {name}", 10)
+
+
+def test_a_thing_of_the_command_is_one_where_the_plan_goes_to_it_without_its_name() -> None:
+    command = "Go to [200, 0], past the platform at [100, 0], and come home."
+    tasks = [transit(200, 0, "Go to [200, 0]."), transit(100, 0, "Go to [100, 0]."), transit(0, 0)]
+    plan = document(tasks, command=command)
+    assert nearest(plan, [100, 0]) >= 9.5
+    grid = task("BathymetryGridSurvey", {"center": [100, 0], "width": 9, "length": 9}, None)
+    assert not structures(document([grid], command="Map round the platform at [100, 0]."), USV)
+
+
+@pytest.mark.parametrize(("margin", "reached"), [(20, 40), (15, 45), (5, 50), (None, 50)])
+def test_what_is_followed_is_gone_to_no_closer_than_the_filter_lets_it(
+    margin: float | None, reached: float
+) -> None:
+    near = go(60, 0)
+    near["filter_skills"] = [{"name": "ObstacleAvoidance", "parameters": {}}]
+    if margin:
+        near["filter_skills"][0]["parameters"]["min_distance"] = margin
+    follow = task(
+        "FollowTarget", {"target_position": [60, 0]}, [near], "Follow the ferry at [60, 0]."
+    )
+    plan = document([follow])
+    assert waypoints(plan) == [[reached, 0]]
+    assert "structure-close" not in kinds(plan)
 
 
 @pytest.mark.parametrize(

@@ -156,6 +156,16 @@ def test_a_time_of_return_that_is_a_duration_is_checked_against_the_plan() -> No
     assert not broken("The vehicle is back by two hours.", tasks=tasks)
     plan = document(tasks, constraints=["The vehicle is back by 40 minutes."])
     assert not plan["limits"][0].get("unchecked")
+    assert "takes about" in broken("The vehicle is back within 40 minutes.", tasks=tasks)[0]
+
+
+def test_a_time_of_return_that_is_a_duration_is_one_to_be_back_within() -> None:
+    tasks = [{"title": "Transit", "parameters": {}, "task_prompt": "Go home. Be back by an hour."}]
+    told = {"tasks": tasks, "constraints": ["The vehicle is back by an hour."]}
+    plan = with_limits(told, USV, "Look round and be back within an hour.")
+    assert plan["constraints"] == ["The vehicle is back within an hour."]
+    assert plan["tasks"][0]["task_prompt"] == "Go home. Be back within an hour."
+    assert without_limits(plan["tasks"][0]["task_prompt"], USV) == "Go home."
 
 
 def test_what_cannot_be_checked_is_said() -> None:

@@ -34,6 +34,8 @@ def states(text: str, value: float, unit: str | None) -> str:
         ("[1,200]", [(1, None), (200, None)]),
         ("100 by 60", [(100, None), (60, None)]),
         ("100 by 50 yards", [(91.44, "m"), (45.72, "m")]),
+        ("20*20 m", [(20.0, "m"), (20.0, "m")]),
+        ("100x60x20 ft", [(30.48, "m"), (18.288, "m"), (6.096, "m")]),
         ("niner zero, minus two five", [(90, None), (-25, None)]),
         ("lanes one zero metres apart", [(10, "m")]),
         ("3m30s", [(210, "s")]),

@@ -190,6 +190,19 @@ def test_agents_of_one_candidate_share_a_base_with_an_adapter_each(
     assert engine.adapters == set(LEVELS)
 
 
+def test_records_are_answered_together_as_one_by_one(here: Path) -> None:
+    agents = Planner.load(QWEN, configuration="lora", device="cpu").agents
+    engine = agents.load("mission")
+    engine.limits = {
+        level: type(limits)(limits.end_ids, limits.pad_id, 8)
+        for level, limits in engine.limits.items()
+    }
+    records = [{"prompt": text} for text in ("go home", "hold here for two minutes")]
+    alone = [agents.ask("mission", record).text for record in records]
+    assert [answer.text for answer in agents.ask_all("mission", records)] == alone
+    assert alone[0] and alone[1]
+
+
 def test_of_two_candidates_the_first_is_released_before_the_second_is_loaded(
     here: Path, loads: list[str]
 ) -> None:

@@ -12,7 +12,7 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
-from planner_ft.benchmark.suite.units import command
+from planner_ft.benchmark.units import command
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.ranks import Ranks
 from planner_ft.training.run import train

@@ -37,6 +37,7 @@ SENTENCES = [
     ),
     ("speed", {"speed": 1.5}, "The vehicle goes no faster than 1.5 m/s."),
     ("return", {"time": "16:30"}, "The vehicle is back by 16:30."),
+    ("return", {"within": "half an hour"}, "The vehicle is back within half an hour."),
     ("no_recording", {}, "Nothing is recorded."),
     ("no_recording", {"object": "the marina"}, "Nothing is recorded near the marina."),
 ]
@@ -48,6 +49,7 @@ VALUES = {
     "duration": 1200,
     "object": "the old pier",
     "time": "high water",
+    "within": "two hours",
 }
 
 

@@ -54,39 +54,40 @@ def case_files(files: Sequence[Path]) -> list[Path]:
 
 def load_cases(files: Sequence[Path], vocabulary: Vocabulary) -> list[Case]:
     """The cases of files. Raises PlannerError with file and line."""
-    cases: dict[str, Case] = {}
-    for path in files:
-        for number, value in _checked(path, vocabulary, _case_problem):
-            if value["id"] in cases:
-                way = "is given twice; give every case its own"
-                raise PlannerError(f"{path}:{number}: id {value['id']!r} {way}")
-            origin = tuple(value["origin"]) if "origin" in value else None
-            known = {"expect": tuple(value["expect"]), "locate": _places(value), "origin": origin}
-            cases[value["id"]] = Case(**{**value, **known})
-    return list(cases.values())
+    cases = []
+    for value in _checked(files, vocabulary, _case_problem):
+        origin = tuple(value["origin"]) if "origin" in value else None
+        known = {"expect": tuple(value["expect"]), "locate": _places(value), "origin": origin}
+        cases.append(Case(**{**value, **known}))
+    return cases
 
 
 def load_demands(files: Sequence[Path], vocabulary: Vocabulary) -> list[Case]:
     """The records of files as cases, a check per demand. Raises PlannerError with file and line."""
     cases = []
-    for path in files:
-        for _number, record in _checked(path, vocabulary, _demand_problem):
-            expect = tuple(_demanded(record.get("skills", [])))
-            cases.append(Case(record["id"], "both", record["prompt"], expect, _places(record)))
+    for record in _checked(files, vocabulary, _demand_problem):
+        expect = tuple(_demanded(record.get("skills", [])))
+        cases.append(Case(record["id"], "both", record["prompt"], expect, _places(record)))
     if not any(case.expect for case in cases):
         raise PlannerError(f"{files[0]}: demands no skills; give records the key skills")
     return cases
 
 
-def _checked(path: Path, vocabulary: Vocabulary, find: Find) -> Iterator[tuple[int, Any]]:
-    """(line, value) of a file. Raises PlannerError at the first problem that `find` names."""
-    number = 0
-    for number, value, problem in iterate_jsonl(path):
-        if problem := problem or find(value, vocabulary):
-            raise PlannerError(f"{path}:{number}: {problem}")
-        yield number, value
-    if not number:
-        raise PlannerError(f"{path}: holds no cases")
+def _checked(files: Sequence[Path], vocabulary: Vocabulary, find: Find) -> Iterator[Any]:
+    """The values of files. Raises PlannerError at the first problem that `find` names."""
+    seen = set[str]()
+    for path in files:
+        number = 0
+        for number, value, problem in iterate_jsonl(path):
+            problem = problem or find(value, vocabulary)
+            if value is not None and not problem and value["id"] in seen:
+                problem = f"id {value['id']!r} is given twice; give every case its own"
+            if problem or value is None:
+                raise PlannerError(f"{path}:{number}: {problem}")
+            seen.add(value["id"])
+            yield value
+        if not number:
+            raise PlannerError(f"{path}: holds no cases")
 
 
 def _places(value: dict[str, Any]) -> dict[str, tuple[float, float]]:

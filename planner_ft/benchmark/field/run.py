@@ -1,19 +1,37 @@
-"""Cases run through planners: right ones by kind of case, and by the data that is demanded."""
+"""Cases run through planners: right ones by kind of case, and by the data that is demanded.
+
+Plans are written as they are made; all figures are made from what is written.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.field.cases import Case, load_cases, load_demands
 from planner_ft.benchmark.field.checks import Outcome, passes
-from planner_ft.benchmark.folder import RESULTS, SCORES, check_folder
+from planner_ft.benchmark.folder import (
+    PLANS,
+    RESULTS,
+    SCORES,
+    Progress,
+    RecordLog,
+    check_folder,
+    clear,
+)
 from planner_ft.benchmark.statistics import Estimate, clustered_rate, wilson
 from planner_ft.planning import Planner
 from planner_ft.planning.settings import PlanSettings
-from planner_ft.support.files import write_json, write_jsonl, write_text
+from planner_ft.support.files import (
+    compact_json,
+    sha256_file,
+    sha256_text,
+    write_json,
+    write_jsonl,
+    write_text,
+)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, markdown_table, row
 from planner_ft.vocabulary import Vocabulary
@@ -24,12 +42,11 @@ WARNING = "data-not-planned"
 MET = ("agents", "plan")
 Record = dict[str, Any]
 Plan = Callable[[Case], Outcome]
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A case that was run: the checks that failed, and whether it failed dangerously in silence."""
+    """A case with its plan and the checks that fail."""
 
     case: Case
     outcome: Outcome
@@ -41,17 +58,19 @@ class Judged:
 
     @property
     def dangerous(self) -> bool:
+        """Whether a dangerous case failed in silence."""
         return bool(self.failed) and self.case.danger and self.outcome.silent
 
 
 @dataclass(frozen=True)
 class Row:
-    """All cases in one configuration of a candidate."""
+    """All cases in one configuration of a candidate; `agents` are what both were made of."""
 
     candidate: str
     configuration: str
-    judged: tuple[Judged, ...]
     vocabulary: Vocabulary
+    judged: tuple[Judged, ...] = ()
+    agents: Record = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -64,12 +83,12 @@ class Row:
 class Field:
     """Field cases: right ones by kind, and those that are dangerous and silent."""
 
-    kind, log, load = "field", "plans.jsonl", staticmethod(load_cases)
+    kind, load = "field", staticmethod(load_cases)
+    files: tuple[str, ...] = (RESULTS, PLANS, TABLE)
 
-    def lines(self, one: Row) -> Iterator[Record]:
-        """The plan documents."""
-        for judged in one.judged:
-            yield {"id": judged.case.id, **one.named(), **asdict(judged.outcome)}
+    def lines(self, _row: Row) -> Iterator[Record]:
+        """Lines of scores.jsonl: none, results.json has every case."""
+        yield from ()
 
     def record(self, one: Row) -> Record:
         kinds = {kind: _counts(some) for kind, some in self._kinds(one)}
@@ -112,7 +131,8 @@ class Field:
 class Demands:
     """Demanded skills that the agents alone give, and the plan with what the vehicle adds."""
 
-    kind, log, load = "both", SCORES, staticmethod(load_demands)
+    kind, load = "both", staticmethod(load_demands)
+    files: tuple[str, ...] = (RESULTS, PLANS, SCORES, TABLE)
 
     def lines(self, one: Row) -> Iterator[Record]:
         """The demands of all records: record, task, skill, and whether they are met."""
@@ -196,46 +216,63 @@ def run_cases(
     progress: Progress,
     *,
     limit: int | None = None,
+    resume: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Run the cases of files with every pair of agents, and write the log, table.md and
-    results.json, which comes last, into `out`; `new_plan` makes what plans a case, for demands with
-    open places taken to be somewhere. Returns the table. Raises PlannerError.
+    """Run the cases of files with every pair of agents. Plans are written into `out` as they are
+    made, with `resume` those that are there are not made again; from them the tables and, last,
+    results.json. `new_plan` makes what plans a case, for demands with open places taken to be
+    somewhere. Returns the table. Raises PlannerError.
     """
     cases = bench.load(files, vocabulary)[:limit]
-    names = (RESULTS, bench.log, TABLE)
-    check_folder(out, () if overwrite else names, "give --overwrite or another --out")
-    rows, used = [], Record()
-    for settings in agents:
-        with Planner(settings) as planner:
-            known = planner.agents.agents
-            name = settings.candidate, known["mission"].configuration.name
-            plan = new_plan(planner, bench.kind == "both")
-            judged = judge(cases, plan, vocabulary, progress, " ".join(name))
-            rows.append(Row(*name, judged, vocabulary))
-            used[rows[-1].name] = {of: one.record() for of, one in known.items()}
+    planners = [Planner(settings) for settings in agents]
+    check_folder(out, bench.files, resume=resume, overwrite=overwrite)
+    if overwrite:
+        clear(out, bench.files)
+    rows = [_row(planner) for planner in planners]
+    data = [bench.kind, vocabulary.sha256, *map(sha256_file, files)]
+    keys = {one.name: sha256_text(compact_json([one.agents, *data]))[:20] for one in rows}
+    with RecordLog(out / PLANS) as log:
+        log.refuse_others({name: {key} for name, key in keys.items()})
+        for index, (planner, one) in enumerate(zip(planners, tuple(rows), strict=True)):
+            missing = set(log.missing(keys[one.name], [case.id for case in cases]))
+            asked = [case for case in cases if case.id in missing]
+            with planner:
+                plan = new_plan(planner, bench.kind == "both")
+                made = ({"id": case.id, **one.named(), **asdict(plan(case))} for case in asked)
+                log.fill(keys[one.name], made, progress, one.name, len(asked), len(cases))
+            found = log.of_key(keys[one.name])
+            lines = (found[case.id] for case in cases)
+            outcomes = [Outcome(line["document"], line["error"]) for line in lines]
+            rows[index] = replace(one, judged=judge(cases, outcomes, vocabulary))
     manifest = build_manifest(
         bench.kind,
         seed=None,
         configuration={"limit": limit, "vocabulary": vocabulary.named},
         inputs={str(path): path for path in files},
-        agents=used,
+        agents={one.name: one.agents for one in rows},
     )
     table = bench.table(rows)
-    write_jsonl(out / bench.log, [line for one in rows for line in bench.lines(one)])
+    if SCORES in bench.files:
+        write_jsonl(out / SCORES, [line for one in rows for line in bench.lines(one)])
     write_text(out / TABLE, markdown_table(table) + bench.below(rows))
     write_json(out / RESULTS, {"rows": [bench.record(one) for one in rows], "manifest": manifest})
     return table
 
 
+def _row(planner: Planner) -> Row:
+    """The row of a planner, before any case."""
+    known, device = planner.agents.agents, planner.agents.device.type
+    agents: Record = {of: {**one.record(), "device": device} for of, one in known.items()}
+    named = planner.settings.candidate, known["mission"].configuration.name
+    return Row(*named, planner.vocabulary, agents=agents)
+
+
 def judge(
-    cases: Sequence[Case], plan: Plan, vocabulary: Vocabulary, progress: Progress, label: str
+    cases: Sequence[Case], outcomes: Sequence[Outcome], vocabulary: Vocabulary
 ) -> tuple[Judged, ...]:
-    """Plan every case and check the plan."""
-    done = []
-    for number, case in enumerate(cases, start=1):
-        outcome = plan(case)
-        failed = tuple(check for check in case.expect if not passes(check, outcome, vocabulary))
-        done.append(Judged(case, outcome, failed))
-        progress(label, number, len(cases))
-    return tuple(done)
+    """The cases with the checks that their plans fail."""
+    return tuple(
+        Judged(case, found, tuple(one for one in case.expect if not passes(one, found, vocabulary)))
+        for case, found in zip(cases, outcomes, strict=True)
+    )

@@ -1,21 +1,21 @@
-"""Asking a chat completions server, again where that can help, and reading its replies."""
+"""Asking a chat completions server, again where that can help."""
 
 from __future__ import annotations
 
 import contextlib
 import email.utils
 import json
-import queue
 import random
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
+from multiprocessing.pool import ThreadPool
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner_ft.benchmark.settings import CHAT, ROOT, EndpointSettings
-from planner_ft.confidence.choices import Choice, Choices, known
+from planner_ft.benchmark.sources.replies import Passing, Reply, excerpt, read_reply, within
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.tables import printable
 
@@ -31,8 +31,6 @@ LONGEST_WAIT = 600.0
 """Seconds that a server may ask us to wait (Retry-After) before we call it closed."""
 PASSING = frozenset({408, 409, 425, 429})
 """Statuses below 500 that may pass."""
-LARGEST = 2**25
-"""Bytes of a reply from which it is no answer to a question of ours."""
 KEPT = "what is answered so far is kept for --resume"
 
 
@@ -46,32 +44,6 @@ class Rejected(PlannerError):
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message)
         self.status = status
-
-
-class Passing(Exception):
-    """A failure that may pass (no connection, cut off, too slow, no JSON) after `wait` seconds."""
-
-    def __init__(self, reason: str, wait: float | None = None) -> None:
-        super().__init__(reason)
-        self.wait = wait
-
-
-@dataclass(frozen=True)
-class Reply:
-    """An answer. `seconds` is the time from the question to its end, `first_token_s` to the first
-    text (streams alone); `problem` says why there is no text. `choices` are log-probabilities that
-    can be believed.
-    """
-
-    text: str
-    seconds: float
-    finish_reason: str
-    tokens: int | None = None
-    prompt_tokens: int | None = None
-    first_token_s: float | None = None
-    attempts: int = 1
-    problem: str | None = None
-    choices: Choices | None = None
 
 
 class ChatClient:
@@ -124,37 +96,29 @@ class ChatClient:
         succeed, and then the first exception is raised. The threads are daemons, so that a program
         can end while a server hangs.
         """
-        done: queue.SimpleQueue[tuple[int, Result] | BaseException | None] = queue.SimpleQueue()
-        waiting, turn = iter(enumerate(items)), threading.Lock()
 
-        def work() -> None:
+        def work(pair: tuple[int, Item]) -> tuple[int, Result] | BaseException | None:
+            if self.stopped.is_set():
+                return None
             try:
-                while not self.stopped.is_set():
-                    with turn:
-                        pair = next(waiting, None)
-                    if pair is None:
-                        break
-                    done.put((pair[0], function(pair[1])))
+                return pair[0], function(pair[1])
             except BaseException as error:
                 self.stop()
-                done.put(error)
-            done.put(None)
+                return error
 
-        running, failures = min(self.settings.concurrency, len(items)), list[BaseException]()
-        for _ in range(running):
-            threading.Thread(target=work, daemon=True).start()
+        failures = list[BaseException]()
+        pool = ThreadPool(self.settings.concurrency)
         try:
-            while running:
-                found = done.get()
-                if found is None:
-                    running -= 1
-                elif isinstance(found, BaseException):
+            for found in pool.imap_unordered(work, enumerate(items)):
+                if isinstance(found, BaseException):
                     failures.append(found)
-                else:
+                elif found is not None:
                     yield found
         except BaseException:
             self.stop()
             raise
+        finally:
+            pool.terminate()
         if failures:
             raise failures[0]
 
@@ -165,7 +129,7 @@ class ChatClient:
         deadline = time.perf_counter() + self.settings.timeout
         try:
             with self.http.stream("GET", f"{self.settings.root}/models") as response:
-                value = json.loads(b"".join(_within(response.iter_bytes(), deadline)))
+                value = json.loads(b"".join(within(response.iter_bytes(), deadline)))
         except (httpx2.HTTPError, httpx2.InvalidURL, Passing, ValueError):
             return None
         found = value.get("data") if isinstance(value, dict) else None
@@ -187,11 +151,11 @@ class ChatClient:
         root, timeout = self.settings.root, self.settings.timeout
         try:
             with self.http.stream("POST", f"{root}{CHAT}", json=body) as response:
-                chunks = _within(response.iter_bytes(), started + timeout)
+                chunks = within(response.iter_bytes(), started + timeout)
                 if response.status_code != 200:
                     raise self._refusal(response, b"".join(chunks))
                 events = response.headers.get("content-type", "").startswith("text/event-stream")
-                return _read(chunks, started, streamed=events)
+                return read_reply(chunks, started, streamed=events)
         except httpx2.InvalidURL as error:
             raise PlannerError(f"--endpoint {root}: no http URL ({error}); {ROOT}") from None
         except httpx2.TimeoutException:
@@ -199,12 +163,12 @@ class ChatClient:
         except httpx2.HTTPError as error:
             reached = not isinstance(error, httpx2.ConnectError)
             kind = "dropped the connection" if reached else "cannot be reached"
-            raise Passing(f"{kind} ({_excerpt(str(error))})") from None
+            raise Passing(f"{kind} ({excerpt(str(error))})") from None
 
     def _refusal(self, response: httpx2.Response, body: bytes) -> Exception:
         """The meaning of a status other than 200."""
         status, root, model = response.status_code, self.settings.root, self.settings.model
-        message = self._without_key(_excerpt(body))
+        message = self._without_key(excerpt(body))
         answer = f"HTTP {status}: {message}"
         if status in PASSING or status >= 500:
             return Passing(f"answers {answer}", _asked_wait(response.headers.get("retry-after")))
@@ -234,109 +198,6 @@ class ChatClient:
             raise PlannerError(f"{self.settings.root}: {wait}; go on then: {KEPT}")
         backoff = min(LONGEST_PAUSE, FIRST_PAUSE * 2 ** (attempt - 1))
         return self.stopped.wait(asked if asked is not None else backoff * random.uniform(0.5, 1.0))
-
-
-def _within(chunks: Iterable[bytes], deadline: float) -> Iterator[bytes]:
-    """A reply's chunks. Raises Passing after `deadline` (time.perf_counter), or for too many."""
-    size = 0
-    for chunk in chunks:
-        size += len(chunk)
-        if time.perf_counter() > deadline:
-            raise Passing("did not finish its answer in time")
-        if size > LARGEST:
-            raise Passing(f"sent more than {LARGEST >> 20} MiB for one answer")
-        yield chunk
-
-
-def _read(chunks: Iterable[bytes], started: float, *, streamed: bool) -> Reply:
-    """A reply, one JSON object or server-sent events that say when they end. Raises Passing."""
-    text, reason, first, problem, choices = "", None, None, None, None
-    usage: tuple[int | None, int | None] = (None, None)
-    for value in _events(chunks) if streamed else [_json_object(b"".join(chunks))]:
-        counted = _usage(value)
-        usage = usage if counted[0] is None else counted
-        if streamed and not value.get("choices"):  # the last event holds the usage alone
-            continue
-        choice = _choice(value)
-        message = choice.get("delta") or {} if streamed else choice.get("message")
-        if not isinstance(message, dict):
-            raise Passing(f"answered without a message: {_excerpt(json.dumps(value))}")
-        piece = message.get("content")  # models that refuse or think first have none for a while
-        reason = choice.get("finish_reason") or reason
-        if isinstance(piece, str):
-            first = first or (time.perf_counter() - started if streamed and piece else None)
-            text += piece
-        if not streamed and isinstance(piece, str):
-            reason, choices = reason or "stop", known(_choices(choice.get("logprobs")), text)
-        elif not streamed:
-            problem = "the server sent no content"
-            reason = reason if reason == "length" else "error"
-    if reason is None:
-        raise Passing("ended a stream in the middle of an answer")
-    seconds = time.perf_counter() - started
-    return Reply(
-        text, seconds, str(reason), *usage, first_token_s=first, problem=problem, choices=choices
-    )
-
-
-def _events(chunks: Iterable[bytes]) -> Iterator[dict[str, Any]]:
-    rest = b""
-    for chunk in chunks:
-        *lines, rest = (rest + chunk).split(b"\n")
-        for line in lines:
-            if line.startswith(b"data:") and (data := line[5:].strip()) != b"[DONE]":
-                yield _json_object(data)
-
-
-def _json_object(body: bytes) -> dict[str, Any]:
-    try:
-        value = json.loads(body)
-    except (ValueError, RecursionError):
-        raise Passing(f"answered with something that is not JSON: {_excerpt(body)}") from None
-    if not isinstance(value, dict) or value.get("error"):
-        kind = "an error" if isinstance(value, dict) else "no object"
-        raise Passing(f"answered with {kind}: {_excerpt(body)}")
-    return value
-
-
-def _choice(value: dict[str, Any]) -> dict[str, Any]:
-    choices = value.get("choices")
-    if not isinstance(choices, list) or not choices or not isinstance(choices[0], dict):
-        raise Passing(f"answered without choices: {_excerpt(json.dumps(value))}")
-    return choices[0]
-
-
-def _choices(value: Any) -> list[Choice] | None:
-    """The tokens of a reply; here none is among its own alternatives."""
-    found = []
-    try:
-        for token in value["content"]:
-            every = [(one["token"], one["logprob"]) for one in token.get("top_logprobs") or ()]
-            others = tuple(one for one in every if one[0] != token["token"])
-            found.append(Choice(len(token["token"]), token["logprob"], others))
-    except (AttributeError, KeyError, TypeError):
-        return None
-    return found
-
-
-def _usage(value: dict[str, Any]) -> tuple[int | None, int | None]:
-    """Generated tokens and tokens of the prompt, where the server counts them."""
-    usage = value.get("usage")
-    counts = usage if isinstance(usage, dict) else {}
-    given, asked = counts.get("completion_tokens"), counts.get("prompt_tokens")
-    return given if isinstance(given, int) else None, asked if isinstance(asked, int) else None
-
-
-def _excerpt(body: bytes | str) -> str:
-    """The beginning of a server's message, on one line; of an error object its message."""
-    text = body.decode("utf-8", "replace") if isinstance(body, bytes) else body
-    value = None
-    with contextlib.suppress(ValueError):
-        value = json.loads(text)
-    if isinstance(value, dict):
-        error = value.get("error", value.get("detail", value.get("message")))
-        text = str(error.get("message") or error) if isinstance(error, dict) else str(error or text)
-    return printable(text)[:200] or "nothing"
 
 
 def _asked_wait(header: str | None) -> float | None:

@@ -1,4 +1,4 @@
-"""What the command says and the plan has not: limits, rows of positions, repeats; contradictions.
+"""Measures, limits, repeats and positions that the command says and the plan has not.
 
 Facts of the text are compared with values of the plan; which words limit or repeat is data
 (planner_ft/document/english.toml).
@@ -6,176 +6,265 @@ Facts of the text are compared with values of the plan; which words limit or rep
 
 from __future__ import annotations
 
+import functools
+import itertools
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator
 
-from planner_ft.document.language import Clause, Language, language, read_clauses
+from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
-from planner_ft.document.positions import positions_of, rows_of
-from planner_ft.document.warnings.measures import (
-    clause_at,
-    is_wanted,
-    lost,
-    lost_bare,
-    lost_measures,
-)
-from planner_ft.document.warnings.places import ROW, uneven_rows, unvisited
-from planner_ft.document.warnings.plan_values import PlanValues, same_place
-from planner_ft.document.warnings.warning import Warning, named, quoted, warning
-from planner_ft.facts import Number, Position, is_place, near, read_input
-from planner_ft.facts.numbers import read_numbers
-from planner_ft.facts.places import without_geographic
-from planner_ft.planning.frame import frame_of
+from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.warnings.case import Case, same_place
+from planner_ft.document.warnings.kinds import Warning, quoted, warning
+from planner_ft.facts import Number, is_place, near
+from planner_ft.facts.numbers import neighbours, rows_of_sizes
+from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Vocabulary
 
+COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
+CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
+MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
+"""Words that are no time to be kept: "a second", "a good day"."""
+SIZES = re.compile(r"\d\s?[x×*]\s?$")
+"""Stands before the second and third of "20 x 20 x 5"."""
+AXIS = re.compile(r"(?<![a-z])[xy]\s?[=:]?\s?$", re.IGNORECASE)
+"""Stands before a number that is said as one coordinate: "x = 120"."""
+LONGEST_NAME = 24
+"""Characters in which the name of a parameter stands before its value."""
+NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
+"""Stands between a value and its correction: "45 minutes, no, ten minutes"."""
+CORRECTED = 30
+"""Characters between a value and its correction."""
 REPEATED = 16
 """Characters behind a count in which the word for what is repeated stands."""
 
 
-def said_warnings(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Warning]:
-    """One per limit, row, position and repeat that the plan lacks, and per contradiction."""
-    if not document["tasks"]:
+def lost(words: str) -> Warning:
+    """A value of the command that the plan has not."""
+    return warning("value-lost", "value", about=words.casefold(), words=words)
+
+
+# ---------------------------------------------------------------- numbers
+
+
+def measures(case: Case) -> Iterator[Warning]:
+    """Measures and courses, but for those that are ruled out, taken back or only told of.
+
+    One that a later clause replaces by a value that the plan has is taken back. Sizes that are said
+    together must be values of one task.
+    """
+    if case.source.facts.unread:
         return
-    command = read_input({"prompt": frame_of(document).spoken}, vocabulary)
-    text = without_geographic(command.facts.text)
-    clauses, spoken = read_clauses(text, vocabulary), language(vocabulary)
-    plan, pairs = PlanValues(document, command), positions_of(text)
-    if not command.facts.unread:
-        yield from lost_measures(text, clauses, spoken, plan)
-    yield from lost_bare(text, clauses, pairs, spoken, plan, vocabulary)
-    rows = [row for row in rows_of(text, pairs) if len(row) >= ROW]
-    yield from _lost_rows(text, rows, clauses, spoken, plan)
-    yield from uneven_rows(rows, document, vocabulary)
-    yield from unvisited(clauses, document, vocabulary)
-    in_rows = {place for row in rows for place in row}
-    for place in pairs:
-        wanted = is_wanted(clauses, place.start)
-        if wanted and place not in in_rows and not plan.has(place):
-            yield lost(text[place.start : place.end])
-    for clause in clauses:
-        if not any(clause.start <= row[0].start < clause.end for row in rows):
-            yield from _lost_limit(clause, text, pairs, spoken, plan)
-    yield from _lost_repeats(text, clauses, pairs, spoken, plan)
-    yield from _there_and_not(clauses, pairs)
-    yield from _misnamed(document, text, vocabulary)
-
-
-def _lost_rows(
-    text: str,
-    rows: Sequence[list[Position]],
-    clauses: Sequence[Clause],
-    spoken: Language,
-    plan: PlanValues,
-) -> Iterator[Warning]:
-    """Rows of positions that are neither the corners of an area nor a route."""
-    for row in rows:
-        clause = clause_at(clauses, row[0].start)
-        limiting = clause is not None and spoken.words["limit"].search(clause.text)
-        visited = all(plan.has(place) for place in row)
-        if plan.encloses(row) or (visited and not limiting):
+    text, instead = case.text, _instead(case)
+    apart = {size.start for row in rows_of_sizes(text) for size in case.plan.missing_sizes(row)}
+    for number, following in itertools.zip_longest(case.numbers, case.numbers[1:]):
+        if not _is_measure(text, number) or not case.wants(number.start):
             continue
-        words = text[row[0].start : row[-1].end]
-        missing = "no limit of the plan has that area" if limiting else "the plan has not all of it"
-        said = f'The command says "{quoted(words)}", and {missing}.'
-        yield warning("limit-lost" if limiting else "value-lost", said, about=words.casefold())
+        between = text[number.end : following.start] if following else ""
+        replaced = case.words["correction"].search(between) or NO.fullmatch(between)
+        if replaced and len(between) <= CORRECTED:
+            continue
+        wholes = [*neighbours(case.numbers, number.unit), number]
+        wholes = [one for one in wholes if one.start <= number.start and number.end <= one.end]
+        if number.start not in apart and any(case.plan.says(one.value) for one in wholes):
+            continue
+        # A later number of the unit, or without one, stands for it.
+        later = [one for one in instead if one.start > number.end]
+        other = next((one for one in later if one.unit in (None, number.unit)), None)
+        if other is None:
+            yield lost(text[wholes[0].start : wholes[0].end])
+        else:
+            instead.remove(other)
 
 
-def _lost_limit(
-    clause: Clause, text: str, pairs: Sequence[Position], spoken: Language, plan: PlanValues
-) -> Iterator[Warning]:
-    """A clause that limits with a number or a position that no limit and no task has."""
-    if clause.corrected or not spoken.words["limit"].search(clause.text):
-        return
-    inside = [place for place in pairs if clause.start <= place.start < clause.end]
-    whole = spoken.words["whole_limit"].search(clause.text)
-    numbers = [one for one in read_numbers(text) if clause.start <= one.start < clause.end]
+def _instead(case: Case) -> list[Number]:
+    """Numbers of clauses that replace something, which are values of the plan."""
+    found = []
+    for number in case.numbers:
+        clause = case.clause_at(number.start)
+        if clause and case.words["replaced"].search(clause.text):
+            factors = (1, 60, 3600) if number.unit is None else (1,)
+            known = [number.value * factor for factor in factors]
+            if any(near(one, other) for one in known for other in case.plan.numbers):
+                found.append(number)
+    return found
+
+
+def bare_numbers(case: Case) -> Iterator[Warning]:
+    """Numbers without a unit that are values all the same: behind the name of a parameter
+    ("radius 15"), in a row of sizes ("20x20x5"), or in place of an earlier value.
+    """
+    for number in (one for one in case.numbers if one.unit is None):
+        clause = case.clause_at(number.start)
+        inside = any(place.start <= number.start < place.end for place in case.positions)
+        if inside or not case.wants(number.start):
+            continue
+        before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
+        bare = _parameters(case.vocabulary).search(before) or SIZES.search(before)
+        instead = clause and case.words["replaced"].match(clause.text.strip(" ,"))
+        known = case.plan.says(number.value) or case.plan.says(number.value * 60)
+        if (bare or instead) and not known:
+            yield lost(case.text[number.start : number.end])
+
+
+@functools.lru_cache(maxsize=16)
+def _parameters(vocabulary: Vocabulary) -> re.Pattern[str]:
+    """The names of number parameters, at the end of what stands before their value."""
+    parameters = [one for task in vocabulary.tasks for one in task.parameters if one.unit]
+    names = sorted({re.escape(one.name).replace("_", r"[ _]") for one in parameters})
+    return re.compile(rf"(?i)\b(?:{'|'.join(names)})(?: (?:of|is|at))?\s*[:=]?\s*$")
+
+
+def _is_measure(text: str, number: Number) -> bool:
+    """Whether a number is a measure or a course. Counts, ids, parts and times of day are none."""
+    moment = MOMENT.fullmatch(text, number.start, number.end)
+    if moment or number.unit == "%" or CLOCK.match(text, number.end):
+        return False
+    course = COURSE.search(text, max(0, number.start - 20), number.start)
+    return number.unit is not None or course is not None
+
+
+# ---------------------------------------------------------------- limits and repeats
+
+
+def limits(case: Case) -> Iterator[Warning]:
+    """Clauses that limit with a number or a position that no limit and no task has."""
+    for clause in (one for one in case.clauses if not one.corrected):
+        in_row = any(clause.start <= row[0].start < clause.end for row in case.rows)
+        if in_row or not case.words["limit"].search(clause.text) or _is_kept(clause, case):
+            continue
+        # A time of day goes on behind its colon.
+        clock = re.compile(r":\d\d").match(case.text, clause.end)
+        words = case.text[clause.start : clock.end() if clock else clause.end].strip(" ,;")
+        yield warning("limit-lost", "limit", about=words.casefold(), words=quoted(words))
+
+
+def _is_kept(clause: Clause, case: Case) -> bool:
+    plan, text = case.plan, case.text
+    inside = [one for one in case.positions if clause.start <= one.start < clause.end]
+    numbers = [one for one in case.numbers if clause.start <= one.start < clause.end]
     apart = [n for n in numbers if not any(one.start <= n.start < one.end for one in inside)]
-    measures = [n for n in apart if n.unit in ("m", "s", "m/s") or _is_coordinate(n, text)]
-    known = plan.limited if whole else [*plan.limited, *plan.numbers]
-    kept = all(any(near(one.value, other) for other in known) for one in measures)
-    away = spoken.words["away"].search(clause.text)
-    if not measures and away:
-        limited = [(value[0], value[1]) for value in plan.limits if is_place(value)]
-        kept = all(any(same_place(place, at) for at in limited) for place in inside)
-        if not inside:
-            kept = plan.speaks_of(clause.text[away.end() :])
-    by_time = spoken.words["by_time"].search(clause.text)
+    said = [n for n in apart if n.unit in ("m", "s", "m/s") or AXIS.search(text[: n.start])]
+    by_time = case.words["by_time"].search(clause.text)
     if by_time and clause.text[by_time.end() :].lstrip()[:1].isdigit():
-        kept = plan.timed
-    if not kept:
-        words = _with_clock(clause, text).strip(" ,;")
-        said = f'The command says "{quoted(words)}", and no limit of the plan has that.'
-        yield warning("limit-lost", said, about=words.casefold())
+        return plan.timed
+    away = case.words["away"].search(clause.text)
+    if not said and away:
+        limited = [value for value in plan.limits if is_place(value)]
+        if not inside:
+            return plan.speaks_of(clause.text[away.end() :])
+        return all(any(same_place(place, at) for at in limited) for place in inside)
+    whole = case.words["whole_limit"].search(clause.text)
+    known = plan.limited if whole else [*plan.limited, *plan.numbers]
+    return all(any(near(one.value, other) for other in known) for one in said)
 
 
-def _is_coordinate(number: Number, text: str) -> bool:
-    """Whether a number is said as one coordinate: "x = 120"."""
-    return re.search(r"(?<![a-z])[xy]\s?[=:]?\s?$", text[: number.start].casefold()) is not None
-
-
-def _with_clock(clause: Clause, text: str) -> str:
-    """The words of a clause; a time of day in it goes on behind its colon."""
-    clock = re.compile(r":\d\d").match(text, clause.end)
-    return text[clause.start : clock.end() if clock else clause.end]
-
-
-def _lost_repeats(
-    text: str,
-    clauses: Sequence[Clause],
-    pairs: Sequence[Position],
-    spoken: Language,
-    plan: PlanValues,
-) -> Iterator[Warning]:
+def repeats(case: Case) -> Iterator[Warning]:
     """Counts of rounds or times that nothing in the plan is done so often."""
-    found: dict[int, tuple[float, int, int]] = {}
-    for number in read_numbers(text):
-        behind = spoken.words["repeats"].search(text, number.end, number.end + REPEATED)
-        if behind and number.unit is None and _is_count(number, text, behind.start()):
-            found[behind.end()] = (number.value, number.start, behind.end())
+    text, found = case.text, dict[int, tuple[float, int]]()
+    for number in case.numbers:
+        behind = case.words["repeats"].search(text, number.end, number.end + REPEATED)
+        between = text[number.end : behind.start()].split() if behind else []
+        is_count = number.value >= 2 and number.value.is_integer() and len(between) <= 1
+        if behind and number.unit is None and is_count:
+            found[behind.end()] = number.value, number.start
     for count, name in ((2.0, "twice"), (3.0, "thrice")):
-        spans = [match.span() for match in spoken.words[name].finditer(text)]
-        found |= {end: (count, start, end) for start, end in spans}
-    for count, start, end in found.values():
-        clause = clause_at(clauses, start)
-        if not clause or not is_wanted(clauses, start):
-            continue
-        places = [place for place in pairs if clause.start <= place.start < clause.end]
-        if not plan.repeats(count, places):
-            words = text[start:end]
-            said = f'The command says "{words}", and the plan does nothing so often.'
-            yield warning("repeat-lost", said, about=words.casefold())
+        spans = (match.span() for match in case.words[name].finditer(text))
+        found |= {end: (count, start) for start, end in spans}
+    for end, (count, start) in found.items():
+        clause = case.clause_at(start)
+        if clause and case.wants(start):
+            places = [one for one in case.positions if clause.start <= one.start < clause.end]
+            if not case.plan.repeats(count, places):
+                words = text[start:end]
+                yield warning("repeat-lost", about=words.casefold(), words=words)
 
 
-def _is_count(number: Number, text: str, until: int) -> bool:
-    between = text[number.end : until].split()
-    return number.value >= 2 and number.value.is_integer() and len(between) <= 1
+# ---------------------------------------------------------------- positions
 
 
-def _there_and_not(clauses: Sequence[Clause], pairs: Sequence[Position]) -> Iterator[Warning]:
-    """A position that one clause asks for and another rules out."""
-    for place in pairs:
-        clause = clause_at(clauses, place.start)
-        others = [
-            (clause_at(clauses, one.start), one)
-            for one in pairs
-            if one is not place and same_place(place, (one.x, one.y))
+def positions(case: Case) -> Iterator[Warning]:
+    """Single positions that the plan has nowhere."""
+    in_rows = {place for row in case.rows for place in row}
+    for place in case.positions:
+        if case.wants(place.start) and place not in in_rows and not case.plan.has(place):
+            yield lost(case.text[place.start : place.end])
+
+
+def rows(case: Case) -> Iterator[Warning]:
+    """Rows of positions that are neither the corners of an area nor a route."""
+    for row in case.rows:
+        clause = case.clause_at(row[0].start)
+        limiting = clause is not None and case.words["limit"].search(clause.text)
+        visited = all(case.plan.has(place) for place in row)
+        if not case.plan.encloses(row) and (limiting or not visited):
+            words = case.text[row[0].start : row[-1].end]
+            kind = ("limit-lost", "area") if limiting else ("value-lost", "row")
+            yield warning(*kind, about=words.casefold(), words=quoted(words))
+
+
+def uneven_rows(case: Case) -> Iterator[Warning]:
+    """A position to which the plan only goes, where it does one thing at all others of its row."""
+    done = _done_at(case) if case.rows else {}
+    for row in case.rows:
+        points = [(place.x, place.y) for place in row]
+        titles = [
+            next((done[at] for at in done if all(map(near, at, one))), None) for one in points
         ]
-        asked = any(other and other.wants(one.start) for other, one in others)
-        if asked and clause and not clause.corrected and not clause.wants(place.start):
-            words = quoted(clause.text.strip(" ,;"))
-            text = f'The command asks for [{place.x:g}, {place.y:g}], and says "{words}".'
-            yield warning("contradiction", text, about=f"{place.x:g},{place.y:g}")
+        known = [own for own in titles if own is not None]
+        bare = [place for place, own in zip(row, titles, strict=True) if not own]
+        common = set.intersection(*filter(None, known)) if any(known) else set()
+        if len(known) == len(row) and len(bare) == 1 and common:
+            where, what = shown((bare[0].x, bare[0].y)), ", ".join(sorted(common))
+            yield warning("value-lost", "uneven", about=where, titles=what, place=where)
 
 
-def _misnamed(document: Mapping[str, Any], text: str, vocabulary: Vocabulary) -> Iterator[Warning]:
+def _done_at(case: Case) -> dict[Point, set[str]]:
+    """The titles of the tasks at each place, but for the ways to it."""
+    done, at = dict[Point, set[str]](), None
+    for task in case.tasks:
+        at = place_of(task, case.vocabulary) or at
+        if at is not None:
+            own = {task["title"]} - {case.vocabulary.transit, case.vocabulary.locate}
+            key = next((one for one in done if all(map(near, one, at))), at)
+            done[key] = done.get(key, set()) | own
+    return done
+
+
+def unvisited(case: Case) -> Iterator[Warning]:
+    """A known place that the command names, and to which neither a task nor a limit leads."""
+    places = [place_of(task, case.vocabulary) for task in case.tasks]
+    places += [limit["values"].get("position") for limit in case.limits]
+    known = [place for place in places if place]
+    for name, at in case.document.get("structures", {}).items():
+        said = re.compile(rf"(?<!\w){re.escape(ARTICLE.sub('', name))}(?!\w)", re.IGNORECASE)
+        wanted = any(any(clause.spans(said)) and not clause.corrected for clause in case.clauses)
+        if wanted and not any(all(map(near, at, place)) for place in known):
+            yield warning("value-lost", "place", about=name.casefold(), name=name, place=shown(at))
+
+
+def there_and_not(case: Case) -> Iterator[Warning]:
+    """A position that one clause asks for and another rules out."""
+    for place in case.positions:
+        clause, at = case.clause_at(place.start), (place.x, place.y)
+        if clause is None or clause.corrected or clause.wants(place.start):
+            continue
+        same = [one for one in case.positions if one is not place]
+        same = [one for one in same if same_place(place, (one.x, one.y))]
+        others = [(case.clause_at(one.start), one) for one in same]
+        if any(other and other.wants(one.start) for other, one in others):
+            words, about = quoted(clause.text.strip(" ,;")), f"{place.x:g},{place.y:g}"
+            yield warning("contradiction", "place", about=about, place=shown(at), words=words)
+
+
+def misnamed(case: Case) -> Iterator[Warning]:
     """A task prompt that puts one thing of the command where the command has another."""
-    said = [(words.casefold(), place) for words, place in named_places(text, vocabulary)]
+    said = [(words.casefold(), at) for words, at in named_places(case.text, case.vocabulary)]
     names = {words for words, _place in said}
-    for task in document["tasks"]:
-        for words, place in named_places(task["task_prompt"], vocabulary):
-            there = {name for name, at in said if same_place(at, (place.x, place.y))}
+    for task in case.tasks:
+        for words, place in named_places(task["task_prompt"], case.vocabulary):
+            at = place.x, place.y
+            there = {name for name, other in said if same_place(other, at)}
             if there and words.casefold() in names - there:
-                where = f"[{place.x:g}, {place.y:g}]"
-                text = f"{named(task)} speaks of {words} at {where}, and the command has"
-                yield warning("contradiction", f"{text} {min(there)} there.", task)
+                values = {"words": words, "place": shown(at), "other": min(there)}
+                yield warning("contradiction", "misnamed", task, **values)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import inspect
 import math
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
@@ -96,12 +97,15 @@ def _api_routes(session: Session) -> list[Route]:
         news = session.events.listen()
         return responses.StreamingResponse(news, media_type="text/event-stream")
 
-    def change(method: Callable[..., Any], *keys: str) -> Route:
-        """POST to a method of the session: 200 with the new state, 202 while agents work."""
+    def change(method: Callable[..., Any]) -> Route:
+        """POST to a method of the session, whose arguments are the keys of the request: 200 with
+        the new state, 202 while agents work.
+        """
+        keys = inspect.signature(method).parameters.values()
 
         async def answer(request: Request) -> Response:
             body = await _body(request)
-            values = [_field(body, key) for key in keys]
+            values = [_field(body.get(key.name), key) for key in keys]
             try:
                 after = await run_in_threadpool(method, *values)
             except ChangedError as error:
@@ -111,20 +115,14 @@ def _api_routes(session: Session) -> list[Route]:
 
         return Route(f"/api/{method.__name__}", answer, methods=["POST"])
 
+    changes: list[Callable[..., Any]] = [session.plan, session.open, session.edit, session.undo]
+    changes += [session.skills, session.approve, session.reject, session.export]
+    changes += [session.run, session.abort]
     return [
         Route("/api/state", state),
         Route("/api/events", events),
         Route("/api/track", track),
-        change(session.run, "revision", "name", "speed"),
-        change(session.abort, "name"),
-        change(session.plan, "command", "locate", "sure"),
-        change(session.edit, "revision", "edit", "by"),
-        change(session.undo, "revision"),
-        change(session.skills, "revision", "task", "by"),
-        change(session.approve, "revision", "name", "acknowledged"),
-        change(session.reject, "revision", "name", "reason"),
-        change(session.export, "revision", "formats", "origin", "overwrite", "sure"),
-        change(session.open, "path"),
+        *map(change, changes),
     ]
 
 
@@ -144,32 +142,30 @@ async def _body(request: Request) -> dict[str, Any]:
     return value
 
 
-OPTIONAL: dict[str, Any] = {"by": "", "origin": "", "sure": False, "overwrite": False}
-"""Keys that a request may leave out, and what they are then."""
+FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "str": (lambda value: isinstance(value, str), "a text"),
+    "bool": (lambda value: isinstance(value, bool), "true or false"),
+    "float": (lambda value: type(value) in (int, float), "a number"),
+    "Edit": (lambda value: isinstance(value, dict), "an object"),
+    "list[str]": (
+        lambda value: isinstance(value, list) and all(isinstance(item, str) for item in value),
+        "a list of texts",
+    ),
+    "Locations": (
+        lambda value: isinstance(value, dict) and all(map(_is_position, value.values())),
+        "an object of names with positions [x, y] in metres east and north of home",
+    ),
+}
+"""Per annotation of a session's method, what its argument must be."""
 
 
-def _field(body: dict[str, Any], key: str) -> Any:
-    """The value of a key, of the type that this key has. Raises PlannerError."""
-    value = body.get(key)
-    if key == "locate":
-        value = value or {}
-        fits = isinstance(value, dict) and all(map(_is_position, value.values()))
-        expected = "an object of names with positions [x, y] in metres east and north of home"
-    elif key == "speed":
-        fits, expected = type(value) in (int, float), "a number"
-    elif key == "edit":
-        fits, expected = isinstance(value, dict), "an object"
-    elif key in OPTIONAL:
-        value = OPTIONAL[key] if value is None else value
-        fits = isinstance(value, type(OPTIONAL[key]))
-        expected = "true or false" if isinstance(OPTIONAL[key], bool) else "a text"
-    elif key in ("acknowledged", "formats"):
-        fits = isinstance(value, list) and all(isinstance(item, str) for item in value)
-        expected = "a list of texts"
-    else:
-        fits, expected = isinstance(value, str), "a text"
-    if not fits:
-        raise PlannerError(f"{key} must be {expected}")
+def _field(value: Any, key: inspect.Parameter) -> Any:
+    """The value of a key, of the type that its method takes. Raises PlannerError."""
+    fits, expected = FIELDS[str(key.annotation)]
+    if value is None and key.default is not key.empty:
+        return key.default
+    if not fits(value):
+        raise PlannerError(f"{key.name} must be {expected}")
     return value
 
 

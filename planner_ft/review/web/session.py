@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from planner_ft.document import PlanDocument, altered, build, read_document
+from planner_ft.document.edits import KINDS, Edit
 from planner_ft.document.vehicle import Vehicle
-from planner_ft.document.warnings.command import other_language
+from planner_ft.document.warnings.asked import other_language
 from planner_ft.planning.essentials import asked as needed
 from planner_ft.planning.locations import Position, is_open
 from planner_ft.planning.planner import SkillsKnown, TasksKnown, check_command
@@ -32,24 +33,14 @@ from planner_ft.vocabulary.plans import task_entry
 if TYPE_CHECKING:
     from planner_ft.planning.planner import Planner
 
-LOOPBACK = "127.0.0.1"
-LAST_PORT = 65535
+LOOPBACK, LAST_PORT = "127.0.0.1", 65535
 LONGEST_COMMAND = 20_000
 """Characters."""
-EDITS = (
-    "locate",
-    "origin",
-    "constraint",
-    "title",
-    "parameter",
-    "prompt",
-    "remove",
-    "move",
-    "insert",
-    "skill",
-    "drop",
-)
+EDITS = tuple(kind for kind in KINDS if kind not in ("skills", "replace"))
 """The kinds of edits that a page makes: not those that record an agent's answer or an adoption."""
+
+Locations = Mapping[str, Position]
+NOWHERE: Locations = {}
 
 
 @dataclass(frozen=True)
@@ -88,8 +79,7 @@ class WebSettings:
 class Exporting(Protocol):
     """What writes approved plans for vehicles (planner_ft.exporters.page)."""
 
-    def formats(self) -> list[dict[str, Any]]:
-        """The formats that there are."""
+    def formats(self) -> list[dict[str, Any]]: ...
 
     def hand_over(
         self, plan: Path, log: Path, names: list[str], origin: str, *, overwrite: bool, sure: bool
@@ -151,12 +141,12 @@ class Session:
 
     # ------------------------------------------------------------ actions of a page
 
-    def edit(self, revision: str, edit: dict[str, Any], name: str) -> State:
+    def edit(self, revision: str, edit: Edit, by: str = "") -> State:
         """Make one edit in the name of a person."""
         if edit.get("kind") not in EDITS:
             problem = f"is none that a page makes; there is {', '.join(EDITS)}"
             raise PlannerError(f"edit {str(edit.get('kind'))[:40]!r}: {problem}")
-        self._editable(revision, name).apply(edit)
+        self._editable(revision, by).apply(edit)
         return self._changed()
 
     def undo(self, revision: str) -> State:
@@ -175,7 +165,12 @@ class Session:
         return self._changed()
 
     def export(
-        self, revision: str, formats: list[str], origin: str, overwrite: bool, sure: bool
+        self,
+        revision: str,
+        formats: list[str],
+        origin: str = "",
+        overwrite: bool = False,
+        sure: bool = False,
     ) -> list[dict[str, Any]]:
         """Write the approved plan in these formats. Raises QuestionError."""
         if self.exporting is None:
@@ -194,15 +189,15 @@ class Session:
         self.runs.abort(name)
         return self.state()
 
-    def open(self, name: str) -> State:
+    def open(self, path: str) -> State:
         """Show another plan of the folder. Raises PlannerError."""
-        if name not in plan_names(self.folder):
-            raise PlannerError(f"{name}: is no plan in {self.folder}; choose one that is listed")
-        read_document(self.folder / name, self.vocabulary)
-        self.path = self.folder / name
+        if path not in plan_names(self.folder):
+            raise PlannerError(f"{path}: is no plan in {self.folder}; choose one that is listed")
+        read_document(self.folder / path, self.vocabulary)
+        self.path = self.folder / path
         return self._changed()
 
-    def plan(self, command: str, locations: Mapping[str, Position], sure: bool = False) -> None:
+    def plan(self, command: str, locate: Locations = NOWHERE, sure: bool = False) -> None:
         """Have a command planned into a file of its own, shown when done. Raises BusyError, and
         QuestionError for another language unless `sure`.
         """
@@ -212,7 +207,7 @@ class Session:
         check_command(command)
         if not sure and (question := other_language(command)):
             raise QuestionError(question)
-        places = {name: (x, y) for name, (x, y) in locations.items()}
+        places = {name: (x, y) for name, (x, y) in locate.items()}
 
         def work(planner: Planner) -> None:
             planned = planner.plan(command, places, self._watch, self.origin)

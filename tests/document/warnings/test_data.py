@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document.language import language
-from planner_ft.document.warnings.command import command_warnings
+from planner_ft.document.warnings.asked import other_language
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
@@ -91,7 +91,8 @@ def test_an_unknown_skill_in_the_ontology_is_named(tmp_path: Path) -> None:
     ],
 )
 def test_a_command_in_unknown_words_is_told(command: str, *, warned: bool) -> None:
-    kinds = [item["kind"] for item in command_warnings({"command": command, "tasks": []}, USV)]
+    assert (other_language(command) is not None) is warned
+    kinds = [item["kind"] for item in document([], command=command)["warnings"]]
     assert ("unknown-language" in kinds) is warned
 
 

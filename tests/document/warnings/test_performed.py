@@ -84,3 +84,12 @@ def test_a_pass_with_one_waypoint_and_values_of_nothing_are_named() -> None:
     assert found("SubseaCableTrack", {"start": [9, 9], "heading": 0}, [step("StationKeep")]) != []
     turn = [step("NudgeYaw", {"delta_yaw": 0})]
     assert not [one for one in found("PerformOrbit", {"arc": 0}, turn) if "arc" in one]
+
+
+def test_ends_of_a_pass_follow_from_its_values() -> None:
+    given = {"side_id": "north", "length": 50, "distance": 6}
+    prompt = "Run along the north side of the quay at [80, 30] for 50 m, 6 m off."
+    for west, expected in ((55, set()), (57, {"skill-value-not-said"})):
+        ends = [step("GoToXY", {"x": x, "y": 36}) for x in (west, 105)]
+        plan = document([task("ParallelStructurePass", given, ends, prompt)])
+        assert {one["kind"] for one in plan["warnings"]} & {"skill-value-not-said"} == expected

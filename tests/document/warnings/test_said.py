@@ -24,6 +24,11 @@ def orbit(arc: float) -> dict[str, Any]:
     return task("PerformOrbit", {"center": [60, 60], "radius": 20, "arc": arc}, None)
 
 
+def grid(width: float, length: float) -> dict[str, Any]:
+    sizes = {"width": width, "length": length, "spacing": 10}
+    return task("BathymetryGridSurvey", {"center": [9, 9], **sizes}, None)
+
+
 def drift() -> dict[str, Any]:
     return task("DriftAudit", {"duration": 60}, [step("DriftWithCurrent", {"time": 60})])
 
@@ -72,6 +77,9 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go to 9,9, keep clear of the nets.", [to(9, 9)], ("Keep clear of the nets.",), None),
         ("Hold at 9,9, 50 s, don't come within 50 m.", [to(9, 9), hold(50)], (), "limit-lost"),
         ("Circle the mast at 60,60, radius 15.", [orbit(360)], (), "value-lost"),
+        ("Map 50 by 50 m at 9,9, 10 m lines.", [grid(50, 10)], (), "value-lost"),
+        ("Map 50*50 m at 9,9, 10 m lines.", [grid(50, 50)], (), None),
+        ("Map 50x20 m at 9,9, no, 20 by 50 m, 10 m lines.", [grid(20, 50)], (), None),
         ("Circle the mast at 60,60, radius 20.", [orbit(360)], (), None),
         ("Circle it at 20 m. Actually 5 is enough.", [orbit(360)], (), "value-lost"),
         ("Circle it at 9 m, then home. Actually 20 will do.", [orbit(360), to(0, 0)], (), None),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from planner_ft.document.warnings import KINDS
-from planner_ft.document.warnings.severity import MEANING, gravest_first, meaning
+from planner_ft.document.warnings.kinds import gravest_first, meaning
 
 
 def test_every_kind_has_a_severity_and_a_name_of_its_own() -> None:
-    assert set(KINDS) == set(MEANING)
-    assert len({name for _severity, name in MEANING.values()}) == len(MEANING)
-    assert {severity for severity, _name in MEANING.values()} == {"danger", "caution", "note"}
+    found = [meaning(kind) for kind in KINDS]
+    assert len({name for _severity, name in found}) == len(KINDS)
+    assert {severity for severity, _name in found} == {"danger", "caution", "note"}
 
 
 def test_the_gravest_stand_first_and_the_unknown_is_a_caution() -> None:

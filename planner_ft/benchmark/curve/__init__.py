@@ -1,1 +1,0 @@
-"""`plannerft learning-curve`: what more training samples bring."""

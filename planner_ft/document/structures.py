@@ -1,0 +1,172 @@
+"""Structures that a plan keeps off, and areas that it keeps to.
+
+A structure is a place that command or operator name as a thing: what a search looks for, what a
+task goes round, what a task prompt names beside a position, a point of a chart, what a limit keeps
+the vehicle away from. A place of the water ("waypoint", bare coordinates), a berth and the middle
+of an area or a line that is gone over are none.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from planner_ft.document.limits import limits_of
+from planner_ft.document.ontology import is_thing, named_places
+from planner_ft.document.track import Leg, Point, TaskEntry, circle_of, place_of, point_of, shown
+from planner_ft.document.vehicle import STAND_OFF
+from planner_ft.planning.frame import frame_of
+from planner_ft.vocabulary import Vocabulary
+
+ROUND, OVER = ("orbit", "square"), ("lawnmower", "line")
+"""Patterns of tasks that go round their place, and of those that go over it."""
+FACING = ("sweep", "pass")
+"""Patterns of tasks that look at the structure that the vehicle has gone to."""
+FOLLOWING = "follow"
+"""The pattern of a task that goes up to its place and no closer than its filters let it."""
+SAME = 0.6
+"""Metres within which a waypoint is a structure itself."""
+MARGIN = 0.5
+"""Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
+CORNERS = 8
+"""Waypoints of a full way round a structure."""
+MOVING = ("go", "arc")
+Allowed = Callable[[Point, Point], bool]
+"""Whether a straight leg may be gone."""
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A thing in the water, and the distance in metres that is kept from it."""
+
+    name: str
+    position: Point
+    standoff: float
+
+    @property
+    def slack(self) -> float:
+        """Metres that a leg may come closer: arcs are drawn as chords."""
+        return max(MARGIN, 0.005 * self.standoff)
+
+    def blocks(self, start: Point, goal: Point) -> bool:
+        """Whether a straight leg comes too close."""
+        return way_off(self.position, start, goal) < self.standoff - self.slack
+
+    def corners(self) -> list[Point]:
+        """Waypoints of a way round at the stand-off."""
+        radius = (self.standoff + MARGIN) / math.cos(math.pi / CORNERS)
+        angles = [2 * math.pi * number / CORNERS for number in range(CORNERS)]
+        x, y = self.position
+        return [(x + radius * math.sin(one), y + radius * math.cos(one)) for one in angles]
+
+
+def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Structure]:
+    """The known structures of a plan, each with the stand-off that is stated or the vehicle's."""
+    own = (document.get("vehicle") or {}).get("stand_off", STAND_OFF)
+    least, kept, named = 0.0, dict[Point, float](), dict[Point, str]()
+    for limit in limits_of(document, vocabulary):
+        values = limit["values"]
+        if limit["kind"] == "clearance":
+            least = max(least, values["distance"])
+        elif limit["kind"] == "keep_out" and "position" in values:
+            at = point_of(values["position"])
+            kept[at] = max(kept.get(at, 0.0), values["distance"])
+            named[at] = values.get("object", "")
+    last, excluded, stated = vocabulary.home, {vocabulary.home}, dict[Point, list[float]]()
+    for task in document["tasks"]:
+        known, place = vocabulary.task.get(task["title"]), place_of(task, vocabulary)
+        if known is not None and known.pattern in FACING and last != vocabulary.home:
+            named.setdefault(last, "")
+        last = place or last
+        if known is None or place is None:
+            continue
+        if known.docks or known.pattern in OVER:
+            excluded.add(place)
+        if known.pattern in ROUND:
+            named.setdefault(place, "")
+        for words, beside in named_places(task["task_prompt"], vocabulary):
+            if math.dist((beside.x, beside.y), place) < SAME:
+                named[place] = named.get(place) or words
+        if circle := circle_of(task, vocabulary):
+            stated.setdefault(place, []).append(circle[1])
+        elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:
+            stated.setdefault(place, []).append(margin)
+    for words, beside in named_places(frame_of(document).spoken, vocabulary):
+        named.setdefault((beside.x, beside.y), words)
+    charted = {**document.get("structures", {})}, {**document.get("located", {})}
+    for name, position in (*charted[0].items(), *charted[1].items()):
+        if is_thing(name, vocabulary):
+            named[point_of(position)] = named.get(point_of(position)) or name
+    return [
+        Structure(name or shown(at), at, max(kept.get(at) or min(stated.get(at, [own])), least))
+        for at, name in named.items()
+        if at in kept or at not in excluded
+    ]
+
+
+def _margin(task: TaskEntry, vocabulary: Vocabulary) -> float:
+    """The largest distance that a filter of a task keeps from obstacles, 0 for none."""
+    filters = [own for step in task.get("skill_sequence") or () for own in step["filter_skills"]]
+    motions = [(vocabulary.motion.of(own["name"]), own["parameters"]) for own in filters]
+    kept = [motion.value("distance", own) for motion, own in motions if motion is not None]
+    return max((float(metres) for metres in kept if metres), default=0.0)
+
+
+def close_legs(
+    document: Mapping[str, Any], legs: Sequence[Leg], vocabulary: Vocabulary
+) -> Iterator[tuple[str, Structure, float]]:
+    """(task, structure, metres) of every leg that comes too close; docking may."""
+    known = structures(document, vocabulary)
+    steering = {task["id"] for task in document["tasks"] if task.get("skill_sequence")}
+    docking = {task["id"] for task in document["tasks"] if is_close(task, vocabulary)}
+    for last, leg in zip([None, *legs], legs, strict=False) if known else ():
+        if leg.kind not in MOVING or leg.task in docking or leg.task not in steering:
+            continue
+        for structure in known:
+            pairs = itertools.pairwise(leg.points)
+            nearest = min(way_off(structure.position, *pair) for pair in pairs)
+            ends = [point for point in (leg.points[0], leg.points[-1]) if point == vocabulary.home]
+            if last and last.task in docking and structure.blocks(*(leg.points[0],) * 2):
+                continue
+            allowed = min([structure.standoff, *(math.dist(structure.position, at) for at in ends)])
+            if nearest < allowed - structure.slack:
+                yield leg.task, structure, nearest
+
+
+def fence(document: Mapping[str, Any], vocabulary: Vocabulary) -> Allowed:
+    """Whether a leg stays inside the plan's fences and outside of its closed areas."""
+    limits = limits_of(document, vocabulary)
+    inside = [limit["values"]["polygon"] for limit in limits if limit["kind"] == "fence"]
+    inside += [area] if (area := (document.get("vehicle") or {}).get("area")) else []
+    outside = [limit["values"]["polygon"] for limit in limits if limit["kind"] == "keep_out_area"]
+    if not inside and not outside:
+        return lambda _start, _goal: True
+    from shapely import LineString, Polygon
+
+    areas = [Polygon(corners).buffer(MARGIN) for corners in inside]
+    closed = [Polygon(corners).buffer(-MARGIN) for corners in outside]
+
+    def stays(start: Point, goal: Point) -> bool:
+        leg = LineString([start, goal])
+        kept = all(area.covers(leg) for area in areas)
+        return kept and not any(area.intersects(leg) for area in closed)
+
+    return stays
+
+
+def is_close(task: TaskEntry, vocabulary: Vocabulary) -> bool:
+    """Whether a task comes close on purpose: it docks, or passes along a face."""
+    known = vocabulary.task.get(task["title"])
+    return known is not None and (known.docks or known.pattern == "pass")
+
+
+def way_off(point: Point, start: Point, goal: Point) -> float:
+    """The distance of a point from a straight leg."""
+    (x, y), (a, b) = start, (goal[0] - start[0], goal[1] - start[1])
+    square = a * a + b * b
+    along = ((point[0] - x) * a + (point[1] - y) * b) / square if square else 0.0
+    along = min(1.0, max(0.0, along))
+    return math.dist(point, (x + along * a, y + along * b))

@@ -1,0 +1,244 @@
+"""What the command asks for and no task does, and tasks and data that it does not want."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from planner_ft.document.language import Ask, Clause, Data
+from planner_ft.document.track import place_of
+from planner_ft.document.warnings.case import Case, skills_of
+from planner_ft.document.warnings.kinds import Warning, named, quoted, warning
+from planner_ft.facts import unknown_words
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.support.files import compact_json
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.essentials import essentials_of
+
+STEM = 5
+"""First letters by which a word is found again."""
+NEAR = 24
+"""Characters in which words that rule something out stand before it."""
+ARTICLE = 3
+"""Words before a noun among which its article is."""
+UNKNOWN = 0.55
+"""The share of unknown words from which a command may be in another language
+(benchmarks/language_check.py).
+"""
+
+
+def other_language(command: str) -> str | None:
+    """A sentence on a command that is not English, as far as can be told from its words."""
+    unknown, share = unknown_words(command)
+    if share < UNKNOWN:
+        return None
+    listed = ", ".join(f'"{word}"' for word in unknown[:3])
+    text = f"Most words of the command are not known ({listed}): it is not English, or is"
+    return f"{text} misspelt, and the plan is what could be read."
+
+
+def other_words(case: Case) -> Iterator[Warning]:
+    """A command that is hardly understood."""
+    if text := other_language(case.command):
+        yield warning("unknown-language", words=text)
+
+
+# ---------------------------------------------------------------- words of the ontology
+
+
+def not_planned(case: Case) -> Iterator[Warning]:
+    """Words that ask for a task that the plan neither has nor declines."""
+    declines = case.words["declined"].search
+    declined = " ".join(text for text in case.texts if declines(text)).casefold()
+    gone = _taken_back(case)
+    for clause in case.typed:
+        for words, start in _unanswered(clause, case, gone):
+            if words.casefold() not in declined:
+                asked = quoted(clause.text[start:])
+                yield warning("not-planned", words=asked, about=words.casefold())
+
+
+def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator[tuple[str, int]]:
+    """(words, where in the clause) that ask for an unplanned task, or one that is impossible."""
+    if clause.corrected:
+        return
+    planned, sends = {task["title"] for task in case.tasks}, _sends(clause, case)
+    for ask in (one for one in case.spoken.asks if one not in gone):
+        match = ask.said.search(clause.text)
+        if match and any(case.vocabulary.task[title].docks for title in ask.tasks):
+            # A word behind an article and two other words at most is a noun: "the dry dock".
+            before = clause.text[: match.start()].split()[-ARTICLE:]
+            is_noun = any(map(case.words["determiner"].fullmatch, before))
+            match = None if is_noun else match
+        # Data to be sent is named by how it came about, which may be long ago: "send the panorama".
+        missing = not ask.tasks & planned and (ask.sends or not sends)
+        if match and missing and clause.wants(clause.start + match.start()):
+            yield match[0], match.start()
+    impossible = case.words["impossible"].match(clause.text.lstrip())
+    # A plan without tasks says itself why.
+    if planned and impossible and clause.wants(clause.start):
+        yield impossible[0], 0
+
+
+def ruled_out_still(case: Case) -> Iterator[Warning]:
+    """A task that the command takes back at last, and that the plan has."""
+    for ask, words in _taken_back(case).items():
+        own = [task for task in case.tasks if task["title"] in ask.tasks]
+        if len(ask.tasks) == 1 and len(own) == 1:
+            yield warning("contradiction", "ruled_out", own[0], about=words.casefold(), words=words)
+
+
+def _taken_back(case: Case) -> dict[Ask, str]:
+    """Tasks with the words that rule them out, where nothing behind them asks for one again. An ask
+    without nouns is of several things: what rules one of them out leaves the others.
+    """
+    last = dict[Ask, str]()
+    for ask in (one for one in case.spoken.asks if one.named.pattern != one.said.pattern):
+        for clause in (one for one in case.typed if not one.corrected):
+            for match in ask.named.finditer(clause.text):
+                before = clause.text[max(0, match.start() - NEAR) : match.start()]
+                ruled_out = case.words["exclusion"].search(before)
+                last.pop(ask, None)
+                if ruled_out and clause.excluded is not None and clause.excluded >= clause.start:
+                    last[ask] = quoted(clause.text.strip(" ,;"))
+    return {ask: words for ask, words in last.items() if words}
+
+
+def without_words(case: Case) -> Iterator[Warning]:
+    """Tasks that nobody asks for without words for them, of which the command has none."""
+    if unknown_words(case.command)[1] >= UNKNOWN:
+        return
+    told = " ".join(case.command.split())
+    for ask in (one for one in case.spoken.asks if one.sure and not one.sure.search(told)):
+        for task in (one for one in case.tasks if one["title"] in ask.tasks):
+            yield warning("value-not-said", "asked", task, about="asked")
+
+
+def _sends(clause: Clause, case: Case) -> bool:
+    """Whether a clause asks for something to be sent."""
+    return any(ask.sends and ask.said.search(clause.text) for ask in case.spoken.asks)
+
+
+# ---------------------------------------------------------------- instructions in other words
+
+
+def instructions(case: Case) -> Iterator[Warning]:
+    """Instructions beyond the plan's tasks of which no word and no fact is in the plan."""
+    told = [clause for clause in case.clauses if _instructs(clause, case)]
+    if len(told) <= _own_tasks(case):
+        return
+    owners = [*case.tasks, *(skill for task in case.tasks for _role, skill in skills_of(task))]
+    parts = [[*case.texts, *(task["task_prompt"] for task in case.tasks)]]
+    parts += [list(owner["parameters"].values()) for owner in owners]
+    planned = compact_json(parts).casefold()
+    known = [case.words[name] for name in ("impossible", "home", "here", "stay")]
+    known += [case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
+    empty = [case.words[name] for name in ("nothing", "water", "boundary", "determiner")]
+    for clause in told:
+        text = clause.text.strip()
+        verb = case.words["verb"].match(text)
+        if not verb or read_numbers(text) or any(words.search(text) for words in known):
+            continue
+        said = re.findall(r"[a-z]{4,}", text[verb.end() :].casefold())
+        nouns = [word for word in said if not any(one.fullmatch(word) for one in empty)]
+        if nouns and not any(word[:STEM] in planned for word in said):
+            yield warning("not-planned", words=quoted(text), about=text.casefold())
+
+
+def _instructs(clause: Clause, case: Case) -> bool:
+    """Whether a clause begins with an instruction that stands, other than to come home."""
+    begins = case.words["verb"].match(clause.text.strip())
+    stands = begins is not None and not clause.corrected and clause.excluded is None
+    return stands and not case.words["home"].search(clause.text)
+
+
+def _own_tasks(case: Case) -> int:
+    """The tasks that such an instruction stands for: not those that look for a place, go to one for
+    the task behind them, or go home.
+    """
+    known = case.vocabulary
+    behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["none"]
+    return sum(
+        task["title"] != known.locate
+        and place_of(task, known) != known.home
+        and not (task["title"] == known.transit and arrival == "transit")
+        for task, arrival in zip(case.tasks, behind, strict=True)
+    )
+
+
+def home_and_not(case: Case) -> Iterator[Warning]:
+    """A command that asks for home and rules it out, and a plan that ends there."""
+    said = [
+        (clause.wants(clause.start + match.start()), clause)
+        for clause in case.clauses
+        if not clause.corrected
+        for match in case.words["home"].finditer(clause.text)
+    ]
+    if {wanted for wanted, _clause in said} == {True, False}:
+        words = quoted(next(clause.text for wanted, clause in said if not wanted).strip(" ,;"))
+        there = place_of(case.tasks[-1], case.vocabulary) == case.vocabulary.home
+        ends = "ends there" if there else "does not end there"
+        yield warning("contradiction", "home", about="home", words=words, ends=ends)
+
+
+# ---------------------------------------------------------------- data
+
+
+def data_ruled_out(case: Case) -> Iterator[Warning]:
+    """Words that rule data out which steps of the plan gather."""
+    gathering = set[str]().union(*(_gathering(task, case.vocabulary) for task in case.tasks))
+    for data in (one for one in case.spoken.data if one.ruled_out and one.skills & gathering):
+        for match in data.said.finditer(case.command):
+            skills = ", ".join(sorted(data.skills & gathering))
+            about = match[0].casefold()
+            yield warning("data-ruled-out", about=about, words=match[0], skills=skills)
+
+
+def data_not_planned(case: Case) -> Iterator[Warning]:
+    """Clauses with words for sensors or data that reach no skill. Data that is sent may have been
+    gathered long ago, and is not asked for.
+    """
+    own = [_gathering(task, case.vocabulary) for task in case.tasks]
+    gathering = set[str]().union(*own)
+    # What waits says what it will gather, and data to be sent are not gathered anew.
+    waiting = [task["task_prompt"] for task in case.tasks if not task["skill_sequence"]]
+    waiting += [str(value) for task in case.tasks for value in task["parameters"].values()]
+    asked = [data for data in case.spoken.data if not data.ruled_out]
+    for clause in (one for one in case.typed if not (one.corrected or _sends(one, case))):
+        lost = [data for data in asked if not _gathered(data, gathering, waiting)]
+        spans = sorted(span for data in lost for span in clause.spans(data.said))
+        words = list(dict.fromkeys(case.command[start:end] for start, end in spans))
+        if words:
+            listed, about = ", ".join(f'"{one}"' for one in words), " ".join(words).casefold()
+            yield warning("data-not-planned", "nowhere", about=about, words=listed)
+        elif case.words["everywhere"].search(clause.text):
+            yield from _once(asked, clause, own, case.tasks)
+
+
+def _once(
+    asked: list[Data], clause: Clause, own: list[set[str]], tasks: list[dict[str, Any]]
+) -> Iterator[Warning]:
+    """Data that are asked for at several places, and that one task of several alike gathers."""
+    for data in (one for one in asked if one.skills and any(clause.spans(one.said))):
+        having = [task for task, names in zip(tasks, own, strict=True) if data.skills & names]
+        alike = [task for task in tasks if having and task["title"] == having[0]["title"]]
+        if len(having) == 1 and len(alike) > 1:
+            said, only = quoted(clause.text.strip(" ,;")), named(having[0])
+            skills, about = ", ".join(sorted(data.skills)), said.casefold()
+            values: dict[str, Any] = {"words": said, "only": only, "skills": skills}
+            yield warning("data-not-planned", "once", about=about, **values)
+
+
+def _gathering(task: Mapping[str, Any], vocabulary: Vocabulary) -> set[str]:
+    """The skills that gather something in a task; of a task that waits those that are essential."""
+    names = {skill["name"] for _role, skill in skills_of(task)}
+    if not task["skill_sequence"]:
+        names = {*essentials_of(task["title"], vocabulary).skills}
+    return {name for name in names if vocabulary.skill[name].role == "perception"}
+
+
+def _gathered(data: Data, gathering: set[str], waiting: list[str]) -> bool:
+    """Whether a skill gathers the data, or a task that has no skills yet speaks of it."""
+    found = data.skills & gathering if data.skills else gathering
+    return bool(found) or any(data.said.search(prompt) for prompt in waiting)

@@ -1,0 +1,220 @@
+"""A plan with its command, read once for all checks."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from planner_ft.document.language import Clause, language, read_clauses
+from planner_ft.document.ontology import positions_of, rows_of
+from planner_ft.document.track import Track
+from planner_ft.document.warnings.kinds import Warning
+from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
+from planner_ft.facts.numbers import read_numbers, rows_of_sizes
+from planner_ft.facts.places import read_positions, without_geographic
+from planner_ft.planning.frame import frame_of
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import step_skills
+
+ROW, CORNERS = 3, 3
+FULL = 360.0
+STEM = 5
+LONGER = re.compile(r"[a-z]{4,}")
+"""Words that say something, and the letters by which one is found again."""
+
+
+class Case:
+    """A revised plan document, its track, and what its command says.
+
+    `text` is the command in local metres, without geographic positions; `command` is as it was
+    typed. Places, numbers and clauses are those of `text`. Tasks have their `number` from 1.
+    """
+
+    def __init__(self, document: Mapping[str, Any], path: Track, vocabulary: Vocabulary) -> None:
+        self.document, self.path, self.vocabulary = document, path, vocabulary
+        self.tasks = [{**one, "number": at} for at, one in enumerate(document["tasks"], start=1)]
+        self.by_id = {task["id"]: task for task in self.tasks}
+        self.command: str = document["command"]
+        self.limits: list[dict[str, Any]] = document.get("limits", [])
+        self.vehicle: dict[str, Any] = document.get("vehicle") or {}
+        self.spoken = language(vocabulary)
+        self.words = self.spoken.words
+
+    @functools.cached_property
+    def source(self) -> Input:
+        """The facts of the command in local metres."""
+        return read_input({"prompt": frame_of(self.document).spoken}, self.vocabulary)
+
+    @functools.cached_property
+    def text(self) -> str:
+        return without_geographic(self.source.facts.text)
+
+    @functools.cached_property
+    def clauses(self) -> tuple[Clause, ...]:
+        return read_clauses(self.text, self.vocabulary)
+
+    @functools.cached_property
+    def typed(self) -> tuple[Clause, ...]:
+        """The clauses of the command as it was typed."""
+        return read_clauses(self.command, self.vocabulary)
+
+    @functools.cached_property
+    def numbers(self) -> list[Number]:
+        return list(read_numbers(self.text))
+
+    @functools.cached_property
+    def positions(self) -> list[Position]:
+        return positions_of(self.text)
+
+    @functools.cached_property
+    def rows(self) -> list[list[Position]]:
+        """At least ROW positions, one behind the other."""
+        return [row for row in rows_of(self.text, self.positions) if len(row) >= ROW]
+
+    @functools.cached_property
+    def plan(self) -> PlanValues:
+        return PlanValues(self.document, self.source)
+
+    @property
+    def texts(self) -> list[str]:
+        """Constraints and assumptions of the plan."""
+        return [*self.document.get("constraints", ()), *self.document.get("assumptions", ())]
+
+    def clause_at(self, place: int) -> Clause | None:
+        """The clause in which a place of the text is."""
+        return next((one for one in self.clauses if one.start <= place < one.end), None)
+
+    def wants(self, place: int) -> bool:
+        """Whether words at a place of the text are neither ruled out nor taken back."""
+        clause = self.clause_at(place)
+        return clause is None or (clause.wants(place) and not clause.corrected)
+
+
+def skills_of(task: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """(role, skill) of all steps of a task."""
+    return (pair for step in task.get("skill_sequence") or () for pair in step_skills(step))
+
+
+Check = Callable[[Case], Iterator[Warning]]
+
+
+# ---------------------------------------------------------------- values of the plan
+
+
+class PlanValues:
+    """The values of a plan: of tasks with their skills, of limits, and places in texts."""
+
+    def __init__(self, document: Mapping[str, Any], command: Input) -> None:
+        tasks, limits = document["tasks"], document.get("limits", ())
+        skills = [skill for task in tasks for _role, skill in skills_of(task)]
+        given = [owner["parameters"] for owner in (*tasks, *skills)]
+        own = [value for values in given for value in values.values()]
+        gone = [(values["x"], values["y"]) for values in given if {"x", "y"} <= values.keys()]
+        self.limits = [value for limit in limits for value in limit["values"].values()]
+        # Coordinates are places, not numbers: 40 east of one and 40 north of another say no place.
+        self.numbers = [
+            float(value)
+            for values in given
+            for name, value in values.items()
+            if is_number(value) and not (name in ("x", "y") and {"x", "y"} <= values.keys())
+        ]
+        self.owners = [list(filter(is_number, task["parameters"].values())) for task in tasks]
+        self.limited = [float(value) for value in self.limits if is_number(value)]
+        self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
+        places = [tuple(value) for value in own if is_place(value)]
+        self.often = [
+            *(gone or places),
+            *((task["title"], str(task["parameters"])) for task in tasks),
+        ]
+        texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
+        texts += [task["task_prompt"] for task in tasks]
+        read = [(place.x, place.y) for line in texts for place in read_positions(line)]
+        corners = [tuple(corner) for polygon in self.polygons for corner in polygon]
+        self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
+        spoken = [number for line in texts for number in read_numbers(line)]
+        self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
+        self.anywhere = {*_flat(own), *(part for one in spoken for part in (one.value, one.said))}
+        self.anywhere |= set(_ways([*places, *read], command))
+        self.texts = " ".join(texts).casefold()
+        self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)
+
+    def says(self, value: float) -> bool:
+        """Whether a number is anywhere in the plan, or a way that it goes, up to its sign."""
+        return any(near(abs(value), abs(number)) for number in self.anywhere)
+
+    def missing_sizes(self, row: Sequence[Number]) -> list[Number]:
+        """The sizes of a row that the task with most of them lacks; none where no task has any, or
+        a text has them together.
+        """
+        wanted = [one.value for one in row]
+        alike = [sorted(sizes) for sizes in self.sizes if len(sizes) == len(wanted)]
+        together = (all(map(near, sorted(wanted), sizes)) for sizes in alike)
+        rests = []
+        for owner in () if any(together) else self.owners:
+            left, rest = list(owner), list[Number]()
+            for one in row:
+                held = next((value for value in left if near(value, one.value)), None)
+                if held is None:
+                    rest.append(one)
+                else:
+                    left.remove(held)
+            rests.append(rest)
+        fewest = min(rests, key=len, default=[])
+        return fewest if len(fewest) < len(row) else []
+
+    def speaks_of(self, words: str) -> bool:
+        """Whether a text of the plan has one of the longer words, or there are none."""
+        longer = LONGER.findall(words.casefold())
+        return not longer or any(word[:STEM] in self.texts for word in longer)
+
+    def has(self, place: Position) -> bool:
+        """Whether a position is anywhere in the plan, or its numbers are values of it."""
+        if any(same_place(place, other) for other in self.places):
+            return True
+        return all(any(near(part, one) for one in self.numbers) for part in (place.x, place.y))
+
+    def encloses(self, row: Sequence[Position]) -> bool:
+        """Whether the positions of a row are the corners of one polygon."""
+        return any(
+            all(any(same_place(place, corner) for corner in polygon) for place in row)
+            for polygon in self.polygons
+        )
+
+    def repeats(self, count: float, places: Sequence[Position]) -> bool:
+        """Whether something is done so often: an arc, each place, else any place or task."""
+        if any(near(abs(value), FULL * count) for value in self.numbers):
+            return True
+        if places:
+            points = [item for item in self.often if is_number(item[0])]
+            return all(sum(same_place(at, one) for one in points) >= count for at in places)
+        return any(self.often.count(item) >= count for item in set(self.often))
+
+
+def _flat(value: Any) -> Iterator[float]:
+    if is_number(value):
+        yield float(value)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _flat(item)
+
+
+def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:
+    """The lengths by which places of a plan lie a stated way off stated ones."""
+    ground = command.ground
+    for (x, y), base in itertools.product(set(map(tuple, places)), ground.places if ground else ()):
+        away = x - base[0], y - base[1]
+        if ground and any(away) and (ground.is_way_off((x, y), base) or away in ground.places):
+            yield from (*away, math.hypot(*away))
+
+
+def same_place(place: Position, other: Sequence[float]) -> bool:
+    """Whether a position of the command is one of the plan."""
+    return near(place.x, other[0]) and near(place.y, other[1])
+
+
+def _is_polygon(value: Any) -> bool:
+    return isinstance(value, list) and len(value) >= CORNERS and all(map(is_place, value))
