@@ -6,6 +6,7 @@ import functools
 import itertools
 import re
 import tomllib
+from bisect import bisect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -119,38 +120,40 @@ def _forms(sense: str, known: frozenset[str]) -> dict[str, tuple[list[str], list
     return found
 
 
-def _worded(sense: str, value: Any, given: dict[str, str | None], rng: Random) -> Value:
+def _worded(sense: str, value: Any, fields: dict[str, str], rng: Random) -> Value:
     """The value in forms of its sense whose fields are given."""
-    fields = {name: text for name, text in given.items() if text is not None}
     said = {
-        wording: rng.choices(forms, cum_weights=weights)[0].format_map(fields)
+        wording: forms[bisect(weights, rng.random() * weights[-1])].format_map(fields)
         for wording, (forms, weights) in _forms(sense, frozenset(fields)).items()
     }
     return Value(value, **said)
 
 
-def _size(value: float, rng: Random, unit: str = "") -> dict[str, str | None]:
+def _size(value: float, rng: Random, unit: str = "") -> dict[str, str]:
     """Fields of a size: {n} in figures, {c} as a count, {w} a small one in words, {s} the ending of
     the unit; `unit` is put behind their names.
     """
-    small = isinstance(value, int) and 0 < value <= 20
-    fields = {"n": digits(value), "c": count_text(value, rng), "s": many(value, "")}
-    return {
-        name + unit: text
-        for name, text in {**fields, "w": in_words(int(value)) if small else None}.items()
+    fields = {
+        "n" + unit: digits(value),
+        "c" + unit: count_text(value, rng),
+        "s" + unit: many(value, ""),
     }
+    if isinstance(value, int) and 0 < value <= 20:
+        fields["w" + unit] = in_words(value)
+    return fields
 
 
-def _own(value: float, rng: Random, table: str) -> dict[str, str | None]:
+def _own(value: float, rng: Random, table: str) -> dict[str, str]:
     """A wording that the value has for itself in a table: "half an hour"."""
     wordings = _SAID["own"][table].get(digits(value))
-    return {"own": pick(wordings, rng) if wordings else None}
+    return {"own": pick(wordings, rng)} if wordings else {}
 
 
 def length(value: float, rng: Random) -> Value:
     """Metres: "12 m", "twelve metres", "1.5 km", "40 feet"; short: "12-metre"."""
-    far = digits(value / 1000) if value >= 1000 and value % 100 == 0 else None
-    fields = _size(value, rng) | _own(value, rng, "lengths") | {"km": far}
+    fields = _size(value, rng) | _own(value, rng, "lengths")
+    if value >= 1000 and value % 100 == 0:
+        fields["km"] = digits(value / 1000)
     return _worded("length", value, fields, rng)
 
 
@@ -173,13 +176,11 @@ def duration(value: float, rng: Random) -> Value:
 
 def bearing(value: float, rng: Random) -> Value:
     """A heading: "090", "east", "90 degrees"; short: figures only, never a compass word."""
-    whole = int(value) if isinstance(value, int) else None
-    fields = {
-        "n": digits(value),
-        "three": f"{whole:03d}" if whole is not None else None,
-        "words": in_words(whole) if whole is not None else None,
-        "name": POINTS[int(value / 22.5)] if value % 22.5 == 0 else None,
-    }
+    fields = {"n": digits(value)}
+    if isinstance(value, int):
+        fields |= {"three": f"{value:03d}", "words": in_words(value)}
+    if value % 22.5 == 0:
+        fields["name"] = POINTS[int(value / 22.5)]
     return _worded("bearing", value, fields, rng)
 
 
@@ -221,20 +222,21 @@ def knots(rng: Random) -> Value:
 
 def position(value: Point, rng: Random, form: str | None = None) -> Value:
     """A position as operators give coordinates, in `form` if given and fit; short: in brackets."""
-    whole = all(isinstance(one, int) and abs(one) < 1000 for one in value)
-    fields: dict[str, str | None] = {}
-    for axis, one, sides in zip("xy", value, ("west east", "south north"), strict=True):
-        spoken = digits(one).replace("-", "minus ")
-        fields |= {
-            axis: digits(one),
-            f"minus_{axis}": spoken if min(value) < 0 else None,
-            f"plain_{axis}": digits(one) if min(value) >= 0 else None,
-            f"size_{axis}": digits(abs(one)) if value[0] and value[1] else None,
-            f"side_{axis}": sides.split()[one > 0],
-            f"words_{axis}": "minus " * (one < 0) + in_words(int(abs(one))) if whole else None,
-        }
+    x, y = digits(value[0]), digits(value[1])
+    fields, roll = {"x": x, "y": y}, rng.random()
+    if min(value) >= 0:
+        fields |= {"plain_x": x, "plain_y": y}
+    else:
+        fields |= {"minus_x": x.replace("-", "minus "), "minus_y": y.replace("-", "minus ")}
+    if roll < 0.05 and value[0] and value[1]:
+        sides = ("east" if value[0] > 0 else "west", "north" if value[1] > 0 else "south")
+        fields |= {"size_x": x.lstrip("-"), "size_y": y.lstrip("-")}
+        fields |= {"side_x": sides[0], "side_y": sides[1]}
+    elif roll < 0.08 and all(isinstance(one, int) and abs(one) < 1000 for one in value):
+        spoken = ("minus " * (one < 0) + in_words(int(abs(one))) for one in value)
+        fields |= zip(("words_x", "words_y"), spoken, strict=True)
     said = _worded("position", list(value), fields, rng)
-    fits = form is not None and all(fields[name] for name in _FIELD.findall(form))
+    fits = form is not None and fields.keys() >= set(_FIELD.findall(form))
     return replace(said, text=form.format_map(fields)) if form is not None and fits else said
 
 

@@ -10,9 +10,10 @@ import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
+from random import Random
 
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.clauses import lead_clause, pattern_clause, skill_clause
+from planner_ft.data.task.clauses import WORDS, lead_clause, pattern_clause, skill_clause
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.phrasebook import parse_phrase
 from planner_ft.data.task.prompts.binding import Bound
@@ -21,13 +22,6 @@ from planner_ft.data.templates.grammar import Call, Chosen, Node, Nodes, Part, S
 from planner_ft.data.templates.records import Template, read_templates
 from planner_ft.vocabulary.definition import Role
 
-MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)
-"""How often a prompt has one, two, ... movements."""
-GROUPS: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
-    "D": ((0.82, 0.18), (0.42, 0.33, 0.17, 0.08)),
-    "F": ((0.95, 0.05), (0.77, 0.23)),
-}
-"""How often one, two, ... skills fill a slot, in prompts of several movements and of one."""
 ROLES: dict[str, Role] = {"D": "perception", "F": "filter"}
 SAID = ("with", "passive")
 """Forms that not every skill has."""
@@ -39,20 +33,6 @@ REPEATED = 0.08
 """Share of skills with an interval in the prompt, which no skill has as a parameter."""
 PAUSE = 0.45
 """Share of the sectors with a pause at each."""
-PATTERNS: dict[str, dict[str, float]] = {
-    "goto": {"waypoints": 0.15, "home": 0.05},
-    "square": {"square": 0.85, "waypoints": 0.1},
-    "lawnmower": {"lawnmower": 0.85, "waypoints": 0.1},
-    "orbit": {"orbit": 0.35, "waypoints": 0.1},
-    "pass": {"pass": 0.5, "line": 0.35},
-    "line": {"line": 0.75, "pass": 0.1},
-    "sectors": {"sectors": 0.45, "headings": 0.25, "steps": 0.1},
-    "sweep": {"headings": 0.15, "steps": 0.15},
-    "follow": {"waypoints": 0.05},
-}
-"""How often a task of the pattern is drawn as each movement; else a skill that fits the task."""
-OTHER = ("waypoints", "square", "line", "pass", "headings", "steps", "orbit", "lawnmower", "home")
-"""Movements that may stand beside the task's own."""
 
 
 @functools.cache
@@ -83,6 +63,11 @@ def composed(context: Context) -> tuple[str, Bound] | None:
     return f"{name}/{filler.kind}{max(filler.moves, 1)}", bound
 
 
+def _count(shares: Sequence[float], rng: Random) -> int:
+    """How many, from 1 on, where each has its share."""
+    return 1 + rng.choices(range(len(shares)), shares)[0]
+
+
 class _Filler:
     """The clauses that fill the slots of one frame; `kind` names its first movement."""
 
@@ -99,7 +84,7 @@ class _Filler:
         """How many movements the prompt asks for; without any, the vehicle holds its place."""
         still = 0.35 if self.task.arrival == "none" and self.task.pattern == "hold" else 0.02
         hold = "hold" in self.book.motions and self.rng.random() < (0.55 if self.lead else still)
-        return 0 if hold else 1 + self.rng.choices(range(len(MOVEMENTS)), MOVEMENTS)[0]
+        return 0 if hold else _count(WORDS["often"]["movements"], self.rng)
 
     def fill(self, slots: Sequence[Slot]) -> bool:
         """Draw the clauses of all slots; whether there are some for each."""
@@ -111,7 +96,7 @@ class _Filler:
                 kind, clause = self._movement(form, main=slot.key == main)
                 self.kind = kind if slot.key == moves[0] else self.kind
                 self.clauses[slot.key] = [clause]
-            elif slot.base in GROUPS:
+            elif slot.base in ROLES:
                 self.clauses[slot.key] = list(self._group(slot.base, form))
         return all(self.clauses.values())
 
@@ -151,10 +136,10 @@ class _Filler:
     def _movement(self, form: str, *, main: bool) -> tuple[str, Bound]:
         """A movement with its kind: the task's own, mostly, if `main`."""
         rng, motions, names = self.rng, self.book.motions, self.task.skills["navigation"]
-        patterns, roll = PATTERNS.get(self.task.pattern, {}), rng.random()
+        patterns, roll = WORDS["patterns"].get(self.task.pattern, {}), rng.random()
         if main and self.lead and "hold" in motions and rng.random() < 0.7:
             return self._skill(motions["hold"], form)
-        for pattern, share in (patterns if main else {pick(OTHER, rng): 0.06}).items():
+        for pattern, share in (patterns if main else {pick(WORDS["beside"], rng): 0.06}).items():
             if 0 <= roll < share and (found := self._pattern(pattern, form)):
                 return pattern, found
             roll -= share
@@ -188,8 +173,8 @@ class _Filler:
 
     def _group(self, base: str, form: str) -> Iterator[Bound]:
         """Skills of a role, mostly those that fit the task; its own words come first."""
-        rng, book, shares = self.rng, self.book, GROUPS[base][self.moves < 2]
-        count = 1 + rng.choices(range(len(shares)), shares)[0]
+        rng, book = self.rng, self.book
+        count = _count(WORDS["often"][base + ("_alone" if self.moves < 2 else "")], rng)
         if self.lead and base == "D" and form not in SAID:
             for place, name in self.entry.links.items():
                 if place.startswith("lead."):
