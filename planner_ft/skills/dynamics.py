@@ -91,14 +91,10 @@ class Dynamics:
 
     def _clip(self, value: Tensor, most: float | Tensor) -> Tensor:
         """`value` between -most and most."""
-        clipped = torch.minimum(torch.maximum(value, -_tensor(most, value)), _tensor(most, value))
+        clipped = value.clamp(-most, most)
         if not self.leak:
             return clipped
         return clipped + LEAK * ((value - clipped) - (value - clipped).detach())
-
-
-def _tensor(value: float | Tensor, like: Tensor) -> Tensor:
-    return value if isinstance(value, Tensor) else like.new_tensor(value)
 
 
 def wrapped(angle: Tensor) -> Tensor:
