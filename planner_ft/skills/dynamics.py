@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import torch
 from torch import Tensor
@@ -89,8 +90,8 @@ class Dynamics:
         drive = self._clip(ahead / 2, own.thrust - steer.abs())
         return 2 * drive, steer * own.track, first, second
 
-    def _clip(self, value: Tensor, most: float | Tensor) -> Tensor:
-        """`value` between -most and most."""
+    def _clip(self, value: Tensor, most: Any) -> Tensor:
+        """`value` between -most and most, a float or (B,)."""
         clipped = value.clamp(-most, most)
         if not self.leak:
             return clipped

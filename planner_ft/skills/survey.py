@@ -39,6 +39,7 @@ WAY = 256
 NUMBERS = geometry.RAYS + 4
 NAMES = ("collision", "success", "lost", "late")
 Cast = Callable[[Tensor, Tensor], Tensor]
+Wrap = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class Survey:
         self.lap, self.left = torch.zeros(count), torch.zeros(count)
         self.options, self.time = torch.zeros(count), torch.zeros(count)
         self.off, self.length = torch.zeros(count), torch.zeros(count)
-        wrap = Compiled if compiled else _plain
+        wrap: Wrap = Compiled if compiled else _plain
         self.advance, self.cast = wrap(advance), wrap(geometry.ranges)
         self.judge = wrap(judge)
         self.reset(range(count))

@@ -119,7 +119,8 @@ def graph(function: Callable[..., Any]) -> Compiled:
 
 def test_compiled_it_moves_sees_and_rewards_as_before() -> None:
     plain, fast = world(4), world(4)
-    fast.advance, fast.cast, fast.judge = map(graph, (plain.advance, plain.cast, plain.judge))
+    graphs = [graph(one) for one in (plain.advance, plain.cast, plain.judge)]
+    fast.advance, fast.cast, fast.judge = graphs
     touched = 0
     for turn in range(30):
         action = torch.full((4, 2), 0.3 if turn % 2 else -0.5)
@@ -130,7 +131,7 @@ def test_compiled_it_moves_sees_and_rewards_as_before() -> None:
         assert torch.allclose(plain.observe(), fast.observe(), atol=1e-3)
         for one in (plain, fast):
             one.reset(torch.nonzero(first.done)[:, 0].tolist())
-    assert touched and all(one.works for one in (fast.advance, fast.cast, fast.judge))
+    assert touched and all(one.works for one in graphs)
 
 
 def test_what_does_not_compile_runs_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
