@@ -39,7 +39,7 @@ class Way(NamedTuple):
 
     state: Tensor
     goal: Tensor
-    index: Tensor
+    point: Tensor
     lap: Tensor
     length: Tensor
     off: Tensor
@@ -57,13 +57,13 @@ def advance(tracker: Tracker, dynamics: Dynamics, now: Way, fixed: Before) -> Wa
     state = torch.where(active[:, None], made, now.state)
     place = state[:, :2]
     away, index = geometry.nearest(place, fixed.outline)
-    lap = now.lap + steps_between(index, now.index) * active
+    lap = now.lap + steps_between(index, now.point) * active
     hit = now.hit | (active & geometry.touching(state[:, :3], fixed.outline, away))
     there = (place - fixed.target).norm(dim=1) < ARRIVED
     return Way(
         state,
         goal,
-        torch.where(active, index, now.index),
+        torch.where(active, index, now.point),
         lap,
         now.length + moved * active,
         now.off + (away - fixed.standoff).abs() * active,
@@ -88,7 +88,7 @@ def judge(
     away = geometry.nearest(fixed.target, fixed.outline)[0]
     wrong = geometry.inside(fixed.target, fixed.outline)
     reward = standoff * (((away - fixed.standoff).abs() <= BAND) & ~wrong)
-    reward = reward + progress * (steps_between(now.index, before) / 4).clamp(-1, 1)
+    reward = reward + progress * (steps_between(now.point, before) / 4).clamp(-1, 1)
     reward = reward + visibility * (2 * seen - 1)
     wrong = wrong | geometry.inside(now.state[:, :2], fixed.outline)
     return reward - 10.0 * now.hit - 5.0 * wrong - 3.0 * lost, lap, lost

@@ -109,7 +109,8 @@ class Learner:
         slope = 2 * (math.log(2) - other - nn.functional.softplus(-2 * other)).sum(dim=-1)
         entropy = slope - density(other, location, spread)
         wrong = nn.functional.smooth_l1_loss(self.critic(seen)[:, 0], value)
-        return wrong - gain.mean() - settings.entropy * entropy.mean()
+        loss: Tensor = wrong - gain.mean() - settings.entropy * entropy.mean()
+        return loss
 
     @torch.no_grad()
     def judge(self, batch: Batch) -> tuple[Tensor, Tensor, Tensor]:

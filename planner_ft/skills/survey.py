@@ -200,7 +200,7 @@ class Survey:
             now = self.advance(self.tracker, self.dynamics, now, fixed)
             if not now.active.any():
                 break
-        self.state, self.index, self.lap = now.state, now.index, now.lap
+        self.state, self.index, self.lap = now.state, now.point, now.lap
         self.length, self.off = now.length, now.off
         self.left = OPTION - now.steps
         self.time = self.time + now.steps
