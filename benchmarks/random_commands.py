@@ -156,7 +156,7 @@ def main() -> None:
     counts, done = Counter[str](), 0
     if arguments.plans and arguments.plans.exists():
         for _line, plan, _problem in iterate_jsonl(arguments.plans):
-            judged(done, plan, counts)
+            judged(done, plan or "no plan", counts)
             done += 1
     with Planner(PlanSettings()) as planner:
         ahead = Ahead(planner)

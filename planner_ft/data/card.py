@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,8 @@ from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 Records = Sequence[Mapping[str, Any]]
 Splits = Mapping[str, Records]
 SIZES = ((1_000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K"), (1_000_000, "100K<n<1M"))
-SCORES = ("f1", "sequence", "plan")
 QUANTILES = (0, 50, 90, 100)
 FAMILIES = 40
-OVERLAP = ("split", "other", "exact", "near", "exact_masked", "near_masked", "families")
 
 
 def dataset_card(
@@ -48,70 +46,40 @@ def dataset_card(
     )
     template = environment.from_string(Path(__file__).with_name("card.md.j2").read_text("utf-8"))
     total = sum(map(len, splits.values()))
-    every = {
-        split: {
-            "names": [name for record in records for name in plan_names(level, record["expected"])],
-            "inputs": [record["task"] for record in records if "task" in record],
-            "tags": [tag for record in records for tag in record.get("tags", ())],
-            "pairs": [*dict.fromkeys(_pairs(level, records))],
-        }
-        for split, records in splits.items()
-    }
-
-    def counts(names: Iterable[str], of: str) -> list[list[Any]]:
-        """Each name with how often it was found in each split."""
-        found = [Counter(figures[of]) for figures in every.values()]
-        return [[f"`{name}`", *(counter[name] for counter in found)] for name in names]
-
-    known = set(every.get("train", {}).get("pairs", ()))
+    found = {split: _found(level, records) for split, records in splits.items()}
     figures = {split: diversity(records) for split, records in splits.items() if records}
-    leaks = leakage or {"baseline": [], "overlaps": []}
-    tagged = leakage and any(of_split["tags"] for of_split in every.values())
-    alone = len(vocabulary.skills_in_role("navigation"))
-    beside = len(vocabulary.skills) - alone
+
     return template.render(
-        table=table,
+        figures=lambda key, name: [of[key][name] for of in found.values()],
         level=level,
         labelling=labelling,
         vocabulary=vocabulary,
-        configs={"default": "", **({"chat": "chat/"} if chat else {})},
+        chat=chat,
         seed=seed,
         size=next((name for limit, name in SIZES if total < limit), "n>1M"),
-        splits=list(splits),
-        counts=[[split, len(records)] for split, records in splits.items()],
-        names=counts(vocabulary.task if level == "mission" else vocabulary.skill, "names"),
-        inputs=counts(vocabulary.task, "inputs") if level == "task" else [],
-        # Skills that can run at the same time: navigation with others, and others.
-        possible_pairs=alone * beside + beside * (beside - 1) // 2,
-        pairs=[
-            [split, len(one["pairs"]), len({*one["pairs"]} - known)] for split, one in every.items()
-        ],
-        tags=[
-            [tag, TAGS[tag[1:-1]], *found]
-            for tag, *found in (counts(tags_of(vocabulary), "tags") if tagged else ())
-        ],
+        splits=splits,
+        found=found,
+        tags=tags_of(vocabulary) if any(of["tags"] for of in found.values()) else [],
+        rules=TAGS,
         lengths=_lengths(level, splits),
-        diverse_splits=list(figures),
-        diversity=[
-            [name, *(of_split[name] for of_split in figures.values())]
-            for name in next(iter(figures.values()), {})
-        ],
+        diversity=figures,
         leakage=leakage,
-        overlaps=[[one[key] for key in OVERLAP] for one in leaks["overlaps"]],
-        baselines=[
-            [one["split"], *(f"{100 * one[key]:.1f} %" for key in SCORES), one["similarity"]]
-            for one in leaks["baseline"]
-        ],
         families=Counter(
             record["family"] for records in splits.values() for record in records
         ).most_common(FAMILIES),
     )
 
 
-def table(header: Sequence[Any], rows: Iterable[Sequence[Any]]) -> str:
-    """A Markdown table."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "".join(f"| {' | '.join(str(cell) for cell in line)} |\n" for line in lines)
+def _found(level: Level, records: Records) -> dict[str, Counter[Any]]:
+    """How often names, tasks of the input, tags and pairs (`_pairs`) occur."""
+    return {
+        "names": Counter(
+            name for record in records for name in plan_names(level, record["expected"])
+        ),
+        "inputs": Counter(record["task"] for record in records if "task" in record),
+        "tags": Counter(tag for record in records for tag in record.get("tags", ())),
+        "pairs": Counter(_pairs(level, records)),
+    }
 
 
 def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
+import re
 import tomllib
+from bisect import bisect
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from random import Random
 from typing import Any, TypeVar
@@ -13,6 +17,7 @@ from planner_ft.facts.geometry import Point, tidy
 from planner_ft.facts.lists import COMPASS as POINTS
 
 T = TypeVar("T")
+_FIELD = re.compile(r"\{(\w+)\}")
 
 
 def words(text: str) -> tuple[str, ...]:
@@ -20,23 +25,15 @@ def words(text: str) -> tuple[str, ...]:
     return tuple(text.split())
 
 
-_FILE = Path(__file__).with_suffix(".toml")
-_SAID: dict[str, dict[str, Any]] = tomllib.loads(_FILE.read_text("utf-8"))
+_SAID: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 ONES = words(
     "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen"
     " fifteen sixteen seventeen eighteen nineteen"
 )
 TENS = words("zero ten twenty thirty forty fifty sixty seventy eighty ninety")
 COMPASS = {45 * number: name for number, name in enumerate(POINTS[::2])}
-ENDINGS: dict[str, list[str]] = _SAID["endings"]
 WRITTEN = tuple(form for form, often in _SAID["written"].items() for _ in range(often))
 """Forms of a written position, the usual ones more often."""
-CORNERS, JOINTS, BOXES = (list(_SAID["polygon"][key]) for key in ("corners", "joints", "boxes"))
-
-
-def _wordings(table: str, value: float) -> list[str]:
-    """Wordings of its own that the value has in numbers.toml."""
-    return list(_SAID[table].get(digits(value), ()))
 
 
 @dataclass(frozen=True)
@@ -107,23 +104,105 @@ def many(number: float, unit: str) -> str:
     return unit if number == 1 else f"{unit}s"
 
 
+# ---------------------------------------------------------------- numbers.toml
+
+
+@functools.lru_cache(maxsize=1024)
+def _forms(sense: str, known: frozenset[str]) -> dict[str, tuple[list[str], list[float]]]:
+    """By wording ("text", "short", ...) the forms of a sense whose fields are known, and their
+    weights, added up.
+    """
+    found = {}
+    for wording, forms in _SAID["forms"][sense].items():
+        able = [form for form in forms if known.issuperset(_FIELD.findall(form))]
+        if able:
+            found[wording] = able, list(itertools.accumulate(forms[form] for form in able))
+    return found
+
+
+def _worded(sense: str, value: Any, fields: dict[str, str], rng: Random) -> Value:
+    """The value in forms of its sense whose fields are given."""
+    said = {
+        wording: forms[bisect(weights, rng.random() * weights[-1])].format_map(fields)
+        for wording, (forms, weights) in _forms(sense, frozenset(fields)).items()
+    }
+    return Value(value, **said)
+
+
+def _size(value: float, rng: Random, unit: str = "") -> dict[str, str]:
+    """Fields of a size: {n} in figures, {c} as a count, {w} a small one in words, {s} the ending of
+    the unit; `unit` is put behind their names.
+    """
+    fields = {
+        "n" + unit: digits(value),
+        "c" + unit: count_text(value, rng),
+        "s" + unit: many(value, ""),
+    }
+    if isinstance(value, int) and 0 < value <= 20:
+        fields["w" + unit] = in_words(value)
+    return fields
+
+
+def _own(value: float, rng: Random, table: str) -> dict[str, str]:
+    """A wording that the value has for itself in a table: "half an hour"."""
+    wordings = _SAID["own"][table].get(digits(value))
+    return {"own": pick(wordings, rng)} if wordings else {}
+
+
 def length(value: float, rng: Random) -> Value:
     """Metres: "12 m", "twelve metres", "1.5 km", "40 feet"; short: "12-metre"."""
-    spelt = figure = digits(value)
-    if isinstance(value, int) and 0 < value <= 20 and rng.random() < 0.15:
-        spelt = in_words(value)
-    short = f"{spelt}-metre" if spelt != figure or rng.random() < 0.6 else f"{figure} m"
-    if (own := _wordings("lengths", value)) and rng.random() < 0.5:
-        return Value(value, pick(own, rng), short)
-    if value == 0.5 and rng.random() < 0.4:
-        return Value(value, "half a metre", short)
-    if value >= 1000 and value % 100 == 0 and rng.random() < 0.5:
-        unit = "km" if rng.random() < 0.6 else "kilometres"
-        return Value(value, f"{digits(value / 1000)} {unit}", short)
-    roll = rng.random()
-    if roll < 0.58:
-        return Value(value, f"{figure} m" if roll < 0.5 else f"{figure}m", short)
-    return Value(value, _some(value, "metre" if roll < 0.95 else "meter", rng), short)
+    fields = _size(value, rng) | _own(value, rng, "lengths")
+    if value >= 1000 and value % 100 == 0:
+        fields["km"] = digits(value / 1000)
+    return _worded("length", value, fields, rng)
+
+
+def duration(value: float, rng: Random) -> Value:
+    """Seconds: "90 s", "two minutes", "half an hour", "1 h 20 min"; short: "90-second"."""
+    fields = _size(value, rng) | _own(value, rng, "durations")
+    hours, minutes, seconds = int(value // 3600), int(value % 3600 // 60), value % 60
+    if value and value % 3600 == 0:
+        fields |= _size(hours, rng, "_h")
+    elif value and not seconds and value < 7200:
+        fields |= _size(int(value // 60), rng, "_min")
+    if hours and minutes and not seconds:
+        fields |= {"hours": str(hours), "minutes": str(minutes), "s_h": many(hours, "")}
+    elif 60 < value < 900 and seconds and value % 15 == 0:
+        fields |= {"minutes": str(minutes), "seconds": digits(seconds), "s_min": many(minutes, "")}
+    if 60 < value < 900 and value % 30 == 0:
+        fields["halves"] = digits(value / 60)
+    return _worded("duration", value, fields, rng)
+
+
+def bearing(value: float, rng: Random) -> Value:
+    """A heading: "090", "east", "90 degrees"; short: figures only, never a compass word."""
+    fields = {"n": digits(value)}
+    if isinstance(value, int):
+        fields |= {"three": f"{value:03d}", "words": in_words(value)}
+    if value % 22.5 == 0:
+        fields["name"] = POINTS[int(value / 22.5)]
+    return _worded("bearing", value, fields, rng)
+
+
+def angle(value: float, rng: Random) -> Value:
+    """A size in degrees without direction; short: "15-degree"; noun: "half a circle"."""
+    return _worded("angle", value, _size(value, rng) | _own(value, rng, "circles"), rng)
+
+
+def rotation(value: float, rng: Random) -> Value:
+    """A signed angle, clockwise positive: "15 degrees to the left"; short: "-15 degrees"."""
+    side = "right" if value > 0 else "left"
+    way = pick(_SAID["ways"][side], rng)
+    fields = _size(abs(value), rng) | _own(abs(value), rng, "circles")
+    fields |= {"sign": pick(_SAID["signs"][side], rng), "way": way}
+    around = f" to the {way}" if way in ("left", "right") else f" {way}"
+    fields["around"] = around if value < 0 or rng.random() < 0.7 else ""
+    return _worded("rotation", value, fields, rng)
+
+
+def speed(value: float, rng: Random) -> Value:
+    """Metres a second: "1.5 m/s", "half a metre per second"; short: "1.5 m/s"."""
+    return _worded("speed", value, _size(value, rng) | _own(value, rng, "speeds"), rng)
 
 
 def feet(rng: Random, low: float, high: float) -> Value | None:
@@ -132,139 +211,40 @@ def feet(rng: Random, low: float, high: float) -> Value | None:
     if not fitting:
         return None
     number = pick(fitting, rng)
-    text = f"{number} {'ft' if rng.random() < 0.5 else 'feet'}"
-    return Value(tidy(round(number * 0.3048, 2)), text, f"{number}-foot")
-
-
-def duration(value: float, rng: Random) -> Value:
-    """Seconds: "90 s", "two minutes", "half an hour", "1 h 20 min"; short: "90-second"."""
-    roll, size, unit = rng.random(), value, "second"
-    if value and value % 60 == 0 and value < 7200 and roll < 0.5:
-        size, unit = value // 60, "minute"
-    spelt = 0 < size <= 20 and size == int(size) and rng.random() < 0.15
-    short = f"{in_words(int(size)) if spelt else digits(size)}-{unit}"
-    own = _wordings("durations", value)
-    return Value(value, pick(own, rng) if own and roll < 0.4 else _time(value, roll, rng), short)
-
-
-def _time(value: float, roll: float, rng: Random) -> str:
-    """A duration that has no wording of its own."""
-    hours, minutes, seconds = int(value // 3600), int(value % 3600 // 60), value % 60
-    if value and value % 3600 == 0 and roll < 0.75:
-        return f"{hours} h" if rng.random() < 0.2 else _some(hours, "hour", rng)
-    if hours and minutes and not seconds and roll < 0.5:
-        form = pick(("{} h {} min", "{}h {}min", "{} hours {} minutes"), rng).format(hours, minutes)
-        return form.replace("hours", "hour") if hours == 1 else form
-    if value and not seconds and value < 7200 and roll < 0.75:
-        if rng.random() < 0.25:
-            return f"{digits(value // 60)}{' ' if rng.random() < 0.8 else ''}min"
-        return _some(value // 60, "minute", rng)
-    if 60 < value < 900 and seconds and value % 15 == 0 and roll < 0.43:
-        joint = pick((" min {} s", many(minutes, " minute") + " {} seconds"), rng)
-        return f"{minutes}{joint.format(digits(seconds))}"
-    if value % 30 == 0 and 60 < value < 900 and roll < 0.5:
-        return f"{digits(value / 60)} minutes"
-    if rng.random() < 0.42:
-        return f"{digits(value)}{pick((' s', ' s', ' s', 's', ' sec'), rng)}"
-    return _some(value, "second", rng)
-
-
-def _some(number: float, unit: str, rng: Random) -> str:
-    return f"{count_text(number, rng)} {many(number, unit)}"
-
-
-def bearing(value: float, rng: Random) -> Value:
-    """A heading: "090", "east", "90 degrees"; short: figures only, never a compass word."""
-    roll = rng.random()
-    figures = f"{int(value):03d}" if roll < 0.35 and isinstance(value, int) else digits(value)
-    figures += " degrees" if 0.5 < roll < 0.8 else "°" if roll > 0.95 else ""
-    name = POINTS[int(value / 22.5)] if value % 22.5 == 0 else None
-    if isinstance(value, int) and rng.random() < 0.03:
-        return Value(value, f"{in_words(value)} degrees", figures, way=name)
-    if name and rng.random() < 0.55:
-        return Value(value, name if rng.random() < 0.8 else f"due {name}", figures, way=name)
-    return Value(value, figures, figures, way=name)
-
-
-def angle(value: float, rng: Random) -> Value:
-    """A size in degrees without direction; short: "15-degree"; noun: "half a circle"."""
-    text = f"{digits(value)}°"
-    if rng.random() < 0.85:
-        text = _some(value, "degree", rng)
-    short = f"{digits(value)}-degree"
-    noun = pick((f"a {short} arc", f"an arc of {text}"), rng)
-    if (own := _wordings("circles", value)) and rng.random() < 0.85:
-        noun = pick(own, rng)
-    return Value(value, text, short, noun)
-
-
-def rotation(value: float, rng: Random) -> Value:
-    """A signed angle, clockwise positive: "15 degrees to the left"; short: "-15 degrees"."""
-    size = abs(value)
-    unit = "°" if rng.random() < 0.1 else f" {many(size, 'degree')}"
-    way = pick(ENDINGS["right" if value > 0 else "left"], rng)
-    sign = "-" if value < 0 else "+" if rng.random() < 0.3 else ""
-    if value < 0 and rng.random() < 0.3:
-        sign = "minus "
-    signed = f"{sign}{digits(size)}{unit}"
-    spoken = f"{count_text(size, rng)}{unit}" if unit != "°" else f"{digits(size)}°"
-    full = signed if rng.random() < 0.12 else f"{spoken} {way}"
-    by = f"{way} by {spoken}" if rng.random() < 0.6 else f"{way} {spoken}"
-    noun = f"an arc of {spoken}" if rng.random() < 0.7 else f"a {digits(size)}-degree arc"
-    if (own := _wordings("circles", size)) and rng.random() < 0.6:
-        noun = own[0]
-    if value < 0 or rng.random() < 0.7:
-        noun = f"{noun} to the {way}" if way in ("left", "right") else f"{noun} {way}"
-    return Value(value, full, signed, noun, by)
-
-
-def speed(value: float, rng: Random) -> Value:
-    """Metres a second: "1.5 m/s", "half a metre per second"; short: "1.5 m/s"."""
-    figure, roll = digits(value), rng.random()
-    short = f"{figure} m/s"
-    if value == 0.5 and roll < 0.3:
-        return Value(value, "half a metre per second", short)
-    if roll < 0.7:
-        return Value(value, short if roll < 0.6 else f"{figure}m/s", short)
-    number = count_text(value, rng) if isinstance(value, int) else figure
-    return Value(value, f"{number} {many(value, 'metre')} {pick(('per', 'a'), rng)} second", short)
+    return _worded("feet", tidy(round(number * 0.3048, 2)), {"n": str(number)}, rng)
 
 
 def knots(rng: Random) -> Value:
     """A speed in knots, m/s in the plan."""
     number = pick((1, 2, 3, 4, 5, 0.5, 1.5, 2.5), rng)
-    text = f"{number} {many(number, 'knot') if rng.random() < 0.8 else 'kn'}"
-    return Value(tidy(round(number * 0.514444, 2)), text, f"{number}-knot")
+    return _worded("knots", tidy(round(number * 0.514444, 2)), _size(number, rng), rng)
 
 
 def position(value: Point, rng: Random, form: str | None = None) -> Value:
-    """A position as operators give coordinates, in `form` if given; short: in brackets."""
+    """A position as operators give coordinates, in `form` if given and fit; short: in brackets."""
     x, y = digits(value[0]), digits(value[1])
-    short = f"[{x}, {y}]" if rng.random() < 0.75 else f"({x}, {y})"
-    roll = rng.random()
-    if form is None and roll < 0.05 and value[0] and value[1]:
-        sides = ("east" if value[0] > 0 else "west", "north" if value[1] > 0 else "south")
-        unit, joint = pick((" m", " metres", ""), rng), pick((" and ", ", ", " "), rng)
-        east, north = (f"{digits(abs(one))}{unit}" for one in value)
-        text = f"{east} {sides[0]}{joint}{north} {sides[1]}"
-    elif form is None and roll < 0.08:
-        if all(isinstance(one, int) and abs(one) < 1000 for one in value):
-            spoken = ["minus " * (one < 0) + in_words(int(abs(one))) for one in value]
-            text = pick((", ", " comma ", ", "), rng).join(spoken)
-        else:
-            text = f"{x}, {y}".replace("-", "minus ")
+    fields, roll = {"x": x, "y": y}, rng.random()
+    if min(value) >= 0:
+        fields |= {"plain_x": x, "plain_y": y}
     else:
-        text = (form or pick(WRITTEN, rng)).format(x=x, y=y)
-        if "-" in text and text[0] not in "[(xX" and "/" not in text:
-            text = f"{x}, {y}".replace("-", "minus ") if rng.random() < 0.5 else short
-    return Value(list(value), text, short)
+        fields |= {"minus_x": x.replace("-", "minus "), "minus_y": y.replace("-", "minus ")}
+    if roll < 0.05 and value[0] and value[1]:
+        sides = ("east" if value[0] > 0 else "west", "north" if value[1] > 0 else "south")
+        fields |= {"size_x": x.lstrip("-"), "size_y": y.lstrip("-")}
+        fields |= {"side_x": sides[0], "side_y": sides[1]}
+    elif roll < 0.08 and all(isinstance(one, int) and abs(one) < 1000 for one in value):
+        spoken = ("minus " * (one < 0) + in_words(int(abs(one))) for one in value)
+        fields |= zip(("words_x", "words_y"), spoken, strict=True)
+    said = _worded("position", list(value), fields, rng)
+    fits = form is not None and fields.keys() >= set(_FIELD.findall(form))
+    return replace(said, text=form.format_map(fields)) if form is not None and fits else said
 
 
 def polygon(value: list[Point], rng: Random) -> Value:
     """The corners, one after the other in one of many notations; noun, for a box that starts in the
     south-west: "the box from [0, 0] to [50, 40]".
     """
-    form, joint = pick(CORNERS, rng), pick(JOINTS, rng)
+    form, joint = pick(_SAID["polygon"]["corners"], rng), pick(_SAID["polygon"]["joints"], rng)
     if joint == " " and form[-1] not in ")]":
         joint = ", "
     corners = [form.format(x=digits(x), y=digits(y)) for x, y in value]
@@ -277,7 +257,7 @@ def polygon(value: list[Point], rng: Random) -> Value:
     if len(value) == 4 and value[0][0] < value[2][0] and value[0][1] == value[1][1] < value[2][1]:
         mark = "[{}, {}]" if rng.random() < 0.7 else "({}, {})"
         first, last = (mark.format(*map(digits, value[place])) for place in (0, 2))
-        noun = pick(BOXES, rng).format(first, last)
+        noun = pick(_SAID["polygon"]["boxes"], rng).format(first, last)
         half = (value[2][0] - value[0][0]) / 2
         if value[2][1] - value[0][1] == 2 * half and rng.random() < 0.8:
             center = mark.format(digits(value[0][0] + half), digits(value[0][1] + half))
@@ -295,7 +275,7 @@ def say_number(value: float, sense: str | None, unit: str | None, rng: Random) -
     """The number said in the way of its sense, or plainly with its unit."""
     if sense in SENSES:
         return SENSES[sense](value, rng)
-    if sense in ENDINGS:
-        return Value(value, digits(value) + pick(ENDINGS[sense], rng))
+    if sense in _SAID["forms"]:
+        return _worded(str(sense), value, {"n": digits(value)}, rng)
     number = count_text(value, rng)
     return Value(value, number if unit in (None, "count") else f"{number} {unit}")

@@ -5,42 +5,33 @@ needs to plan, and most of a token's time goes to everything but the multiplicat
 adapters and 4-bit rounding are computed here as those libraries compute them, and a pass takes few
 operations: queries, keys and values in one multiplication, gate and up in another. Norms, rotary
 positions, attention and residual sums are float32, the multiplications are in the model's dtype.
-
-Attention runs over queries and keys in blocks of a fixed size. So a position's logits do not depend
-on how many positions share its pass or on the other rows of the batch, even in bfloat16 where the
-CPU multiplies it (oneDNN gives a row the same numbers whatever rows stand beside it): drafting,
-fast-forward and batches change not one bit.
 """
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import torch
-from safetensors.torch import load_file
 from torch import Tensor
 from torch.nn.functional import embedding, linear, pad, rms_norm, silu
 
 from planner_ft.candidates import Candidate, Dimensions
-from planner_ft.candidates.adapters import CONFIG, WEIGHTS, check_adapter
-from planner_ft.candidates.loading import compute_dtype, require_folder
-from planner_ft.candidates.location import read_config, weight_files
+from planner_ft.candidates.adapters import check_adapter
+from planner_ft.candidates.loading import require_folder
+from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
+from planner_ft.candidates.weights import merge_adapter, read_weights
+from planner_ft.decoding.attention import BLOCK, Grid, attention, rounded_up
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
-BLOCK = 8
-"""Queries that are multiplied together. A pass over fewer is filled up to it."""
 SHARED, LONG = 64, 256
 """Tokens that prompts must have in common to be copied, and of a prompt that is kept for it."""
-KEYS = 128
-"""Keys that are multiplied together. Memory comes in multiples of it."""
 EMBEDDINGS, HEAD, NORM = "model.embed_tokens.weight", "lm_head.weight", "model.norm.weight"
 NORMS = ("input_layernorm", "post_attention_layernorm")
 PROJECTIONS = (
@@ -54,42 +45,6 @@ ROPE: dict[str, set[str]] = {
     "llama3": {"factor", "low_freq_factor", "high_freq_factor", "original_max_position_embeddings"},
 }
 """Rotary positions that do not depend on the length of the text, and their settings."""
-LORA = ("base_model.model.", ".lora_A.weight", ".lora_B.weight")
-PLAIN_LORA = {
-    *("auto_mapping", "base_model_name_or_path", "bias", "inference_mode", "init_lora_weights"),
-    *("lora_alpha", "lora_dropout", "megatron_core", "peft_type", "peft_version"),
-    *("qalora_group_size", "r", "revision", "target_modules", "task_type"),
-}
-"""Settings of an adapter that are read here or do not change how it is applied. An adapter with any
-other one set is not plain LoRA.
-"""
-NF4_BLOCK, SCALE_BLOCK = 64, 256
-LEVELS = tuple(
-    float(level)
-    for level in [
-        "-1",
-        "-0.6961928009986877",
-        "-0.5250730514526367",
-        "-0.39491748809814453",
-        "-0.28444138169288635",
-        "-0.18477343022823334",
-        "-0.09105003625154495",
-        "0",
-        "0.07958029955625534",
-        "0.16093020141124725",
-        "0.24611230194568634",
-        "0.33791524171829224",
-        "0.44070982933044434",
-        "0.5626170039176941",
-        "0.7229568362236023",
-        "1",
-    ]
-)
-"""The sixteen values of NormalFloat: quantiles of the normal distribution, scaled to [-1, 1]."""
-HALF_TABLE = (2**16 - 1) / 2
-TINY = 1e-38
-"""In place of the scale of a block of zeros."""
-
 Linear = tuple[Tensor, Tensor | None]
 """Weight (outputs, inputs) and bias."""
 
@@ -107,22 +62,14 @@ def read_forms(
     folder = require_folder(candidate)
     for level, path in adapters.items():
         check_adapter(path, candidate, level=level, vocabulary=vocabulary)
-    config, dtype = read_config(folder), compute_dtype(torch.device("cpu"))
+    config = read_config(folder)
     if not _is_supported(config):
         return None
-    tensors = {
-        name: tensor.to(dtype)
-        for path in weight_files(folder)
-        for name, tensor in load_file(path).items()
-    }
-    layers = [name for name in tensors if name.endswith("_proj.weight")]
-    if quantization == "nf4":
-        tensors |= {name: rounded_to_nf4(tensors[name]) for name in layers}
+    tensors = read_weights(folder, quantization)
     forms: dict[Level | None, SmallModel] = {}
     for name in (None, *adapters):
-        added = _added(adapters[name], layers) if name else {}
-        merged = {key: (tensors[key].float() + new).to(dtype) for key, new in (added or {}).items()}
-        form = small_model(config, {**tensors, **merged}) if added is not None else None
+        merged = merge_adapter(tensors, adapters[name]) if name else tensors
+        form = small_model(config, merged) if merged is not None else None
         if form is None:
             return None
         forms[name] = form
@@ -147,25 +94,6 @@ def _rope(config: Mapping[str, Any]) -> dict[str, Any]:
     """Settings of the rotary positions; files of before transformers 5 hold them in two places."""
     rope = {"rope_type": "default", "rope_theta": config.get("rope_theta", 10000.0)}
     return rope | (config.get("rope_scaling") or {}) | (config.get("rope_parameters") or {})
-
-
-def _added(folder: Path, layers: Collection[str]) -> dict[str, Tensor] | None:
-    """What an adapter adds to its layers by name; None where it is more than two matrices each."""
-    config, tensors = read_config(folder, CONFIG), load_file(folder / WEIGHTS)
-    prefix, down, up = LORA
-    names = {layer: prefix + layer.removesuffix(".weight") for layer in layers}
-    used = {layer: name for layer, name in names.items() if name + down in tensors}
-    # An initialisation with a name (PiSSA, LoftQ ...) changes the base, too.
-    plain = config.get("bias") == "none" and isinstance(config.get("init_lora_weights", True), bool)
-    others = any(value and name not in PLAIN_LORA for name, value in config.items())
-    pairs = {one + end for one in used.values() for end in LORA[1:]}
-    if not plain or others or set(tensors) != pairs:
-        return None
-    scaling = config["lora_alpha"] / config["r"]
-    return {
-        layer: scaling * (tensors[name + up].float() @ tensors[name + down].float())
-        for layer, name in used.items()
-    }
 
 
 @dataclass(frozen=True)
@@ -286,7 +214,7 @@ class SmallPasses:
         ends = [start + count for start, count in zip(starts, counts, strict=True)]
         self._make_room(max(ends) + BLOCK)
         if len(feeds) > 1 and max(counts) <= BLOCK:
-            logits = self._run(_Grid.of_rows(starts, max(counts)), feeds, wanted)
+            logits = self._run(Grid.of_rows(starts, max(counts)), feeds, wanted)
         else:  # prompts one after the other, so that none is filled up to the longest
             parts = zip(range(len(feeds)), starts, feeds, wanted, strict=True)
             logits = torch.cat([self._run_row(*part) for part in parts])
@@ -304,7 +232,7 @@ class SmallPasses:
             known *= known >= SHARED
             for memory, old in zip(self.memory, kept[0][1], strict=True):
                 memory[:, row, :known] = old[:, :known]
-        grid = _Grid.of_row(row, start + known, len(feed) - known)
+        grid = Grid.of_row(row, start + known, len(feed) - known)
         logits = self._run(grid, [feed[known:]], [wanted])
         if not start and len(feed) > LONG and 2 * known < len(feed):
             kept[:] = [(feed, [memory[:, row, : len(feed)].clone() for memory in self.memory])]
@@ -320,12 +248,12 @@ class SmallPasses:
     def _make_room(self, positions: int) -> None:
         """Memory for this many positions; what is not written yet is hidden, and still a number."""
         if positions > self.capacity:
-            more = max(_up(positions), 2 * self.capacity) - self.capacity
+            more = max(rounded_up(positions), 2 * self.capacity) - self.capacity
             self.memory = [pad(memory, (0, 0, 0, 0, 0, more)) for memory in self.memory]
             self.capacity += more
             self.angles = self.model.angles(self.capacity)
 
-    def _run(self, grid: _Grid, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+    def _run(self, grid: Grid, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
         """The wanted logits of the rows of a grid."""
         model, slots = self.model, len(grid.starts) * grid.width // len(feeds)
         ids = [token for feed in feeds for token in (*feed, *[0] * (slots - len(feed)))]
@@ -349,7 +277,7 @@ class SmallPasses:
         self,
         layer: Layer,
         states: Tensor,
-        grid: _Grid,
+        grid: Grid,
         hidden: Tensor,
         angles: Sequence[Tensor],
         memory: Tensor,
@@ -374,106 +302,3 @@ class SmallPasses:
         spread = spread[..., : grid.width, :]
         flat = spread.permute(0, 3, 1, 2, 4).reshape(len(states), heads * size)
         return linear(flat.to(states.dtype), *layer.out)
-
-
-@dataclass(frozen=True)
-class _Grid:
-    """Where the tokens of a pass stand: blocks of `width` neighbours from the positions `starts`
-    on, filled up with tokens that count for nothing. `where` are the row and positions of all
-    tokens in the memory, `parts` the blocks that attend together, their rows, and their keys.
-    """
-
-    starts: Tensor
-    width: int
-    where: tuple[Any, Any]
-    parts: Sequence[tuple[slice, slice, int]]
-
-    @classmethod
-    def of_row(cls, row: int, start: int, count: int) -> _Grid:
-        """A single row with any number of tokens; its blocks attend one after the other."""
-        width = min(count, BLOCK)
-        starts = range(start, start + count, width)
-        parts = [
-            (slice(block, block + 1), slice(row, row + 1), _up(first + width))
-            for block, first in enumerate(starts)
-        ]
-        positions = slice(start, start + len(starts) * width)
-        return cls(torch.tensor(starts), width, (row, positions), parts)
-
-    @classmethod
-    def of_rows(cls, starts: Sequence[int], width: int) -> _Grid:
-        """All rows, each with at most `width` tokens."""
-        rows, first = torch.arange(len(starts)).repeat_interleave(width), torch.tensor(starts)
-        positions = (first[:, None] + torch.arange(width)).flatten()
-        parts = [(slice(None), slice(None), _up(max(starts) + width))]
-        return cls(first, width, (rows, positions), parts)
-
-    def hidden(self, group: int) -> Tensor:
-        """Minus infinity for later keys, else 0: (blocks, 1, group * BLOCK, keys)."""
-        queries = (self.starts[:, None] + torch.arange(BLOCK)).repeat(1, group)
-        later = torch.arange(self.parts[-1][2]) > queries[:, None, :, None]
-        return torch.zeros(later.shape).masked_fill_(later, -torch.inf)
-
-
-def attention(queries: Tensor, memory: Tensor, hidden: Tensor) -> Tensor:
-    """Attention of queries (blocks, key heads, queries, size) over keys and values (2, blocks,
-    positions, key heads, size).
-
-    The result does not depend on how many hidden keys stand behind the others: values are added up
-    in chunks, in their order.
-    """
-    keys, values = memory.transpose(2, 3)
-    scores = torch.matmul(queries, keys.transpose(2, 3))
-    weights = torch.softmax(scores.mul_(queries.shape[-1] ** -0.5).add_(hidden), -1)
-    found = torch.matmul(weights[..., :KEYS], values[:, :, :KEYS])
-    for start in range(KEYS, keys.shape[2], KEYS):
-        chunk = slice(start, start + KEYS)
-        found += torch.matmul(weights[..., chunk], values[:, :, chunk])
-    return found
-
-
-def _up(number: int) -> int:
-    """The next multiple of KEYS."""
-    return -(-number // KEYS) * KEYS
-
-
-def rounded_to_nf4(weight: Tensor) -> Tensor:
-    """A weight as bitsandbytes unpacks it on a CPU after 4-bit storage with double quantisation:
-    blocks of 64 weights share a scale, and the scales are 8-bit floats, blocks of 256 with a scale
-    of their own (Dettmers et al. 2023; 8-bit floats, Dettmers 2016).
-    """
-    flat = weight.float().flatten()
-    blocks = pad(flat, (0, -len(flat) % NF4_BLOCK)).view(-1, NF4_BLOCK)
-    scales = blocks.abs().amax(1)
-    scaled = (blocks * (1.0 / scales.clamp(min=TINY))[:, None]).clamp(-1, 1)
-    levels = torch.tensor(LEVELS)
-    places = torch.zeros(scaled.shape, dtype=torch.uint8)
-    for middle in (levels[:-1] + levels[1:]) / 2:  # Several times as fast as torch.bucketize.
-        places += scaled > middle
-    rounded = levels[places.int()] * _rounded_scales(scales)[:, None]
-    return rounded.flatten()[: len(flat)].to(weight.dtype).view(weight.shape)
-
-
-def _rounded_scales(scales: Tensor) -> Tensor:
-    """The scales as they are read back: mean + 8-bit value times the largest of its block."""
-    mean = scales.mean()
-    shifted = pad(scales - mean, (0, -len(scales) % SCALE_BLOCK)).view(-1, SCALE_BLOCK)
-    largest = shifted.abs().amax(1, keepdim=True)
-    # The CPU kernel looks values up in a table of 2**16 steps from -1 to 1.
-    steps = (shifted * (1.0 / largest.clamp(min=TINY)) + 1) * HALF_TABLE + 0.5
-    known = dynamic_values()
-    nearest = torch.bucketize(steps.floor() / HALF_TABLE - 1, (known[:-1] + known[1:]) / 2)
-    return (known[nearest] * largest).flatten()[: len(scales)] + mean
-
-
-@functools.cache
-def dynamic_values() -> Tensor:
-    """The 256 values of the signed dynamic 8-bit type: seven decades, each with twice the steps of
-    the one below, zero and one.
-    """
-    positive = []
-    for decade in range(7):
-        bounds = torch.linspace(0.1, 1, 2**decade + 1)
-        positive.append(10.0 ** (decade - 6) * ((bounds[:-1] + bounds[1:]) / 2.0))
-    values = torch.cat(positive)
-    return torch.cat([-values, values, torch.tensor([0.0, 1.0])]).sort().values

@@ -6,13 +6,13 @@ A missing element becomes a question to the operator and blocks nothing: most co
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, Language, language, read_clauses
 from planner_ft.facts import Position, Span
-from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
+from planner_ft.facts.rows import positions_of, rows_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 
@@ -23,9 +23,6 @@ LONGEST_PIECE = 1500
 CLOSED = ("]", ")")
 FARTHEST = 40
 """Characters between a name and its coordinates."""
-PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?\s?[,/]\s?[-−–]?\d+(?:\.\d+)?")
-BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
-"""What stands between the positions of a row."""
 _END = re.compile(r"[.!?;]\s+|\n+")
 _WORD = re.compile(r"\s+([^\W_][\w'’-]*)")
 _LINK = re.compile(r"\s+(?:of|with)\s+(?=\w)")
@@ -185,35 +182,6 @@ def _before(text: str, start: int, named: list[Span]) -> int:
         if end <= start <= end + FARTHEST and _PLACED.fullmatch(text, end, start):
             return begin
     return start - 1 if text[start - 1 : start] in ("[", "(") else start
-
-
-def positions_of(text: str) -> list[Position]:
-    """Positions that are written as such: certain ones, and "40,25"; none overlaps another."""
-    numbers = {number.end: number for number in read_numbers(text) if number.unit}
-    chosen = list[Position]()
-    options = [
-        place
-        for place in read_positions(text)
-        if place.certain
-        or (PAIR.fullmatch(text, place.start, place.end) and place.end not in numbers)
-    ]
-    tight = sorted(options, key=lambda place: (not place.certain, place.end - place.start))
-    for place in tight:
-        if all(place.end <= one.start or one.end <= place.start for one in chosen):
-            chosen.append(place)
-    return sorted(chosen, key=lambda place: place.start)
-
-
-def rows_of(text: str, pairs: Sequence[Position]) -> Iterator[list[Position]]:
-    """Positions with nothing but "and", "then" and marks between them."""
-    row = list[Position]()
-    for place in pairs:
-        if row and not BESIDE.fullmatch(text, row[-1].end, place.start):
-            yield row
-            row = []
-        row.append(place)
-    if row:
-        yield row
 
 
 def _merged(spans: Iterable[Span]) -> list[Span]:

@@ -28,7 +28,6 @@ from planner_ft.facts.inputs import read_input as read_input
 from planner_ft.facts.numbers import Number as Number
 from planner_ft.facts.places import Geographic as Geographic
 from planner_ft.facts.places import Position as Position
-from planner_ft.facts.reading import EXACT as EXACT
 from planner_ft.facts.reading import SCORING as SCORING
 from planner_ft.facts.reading import WAYPOINT as WAYPOINT
 from planner_ft.facts.reading import Evidence as Evidence
@@ -37,14 +36,10 @@ from planner_ft.facts.reading import is_number as is_number
 from planner_ft.facts.reading import is_place as is_place
 from planner_ft.facts.reading import near as near
 from planner_ft.facts.reading import read as read
-from planner_ft.facts.reading import same_place as same_place
-from planner_ft.facts.words import Phrases as Phrases
 from planner_ft.facts.words import Span as Span
 from planner_ft.facts.words import corrections as corrections
-from planner_ft.facts.words import edit_distance as edit_distance
 from planner_ft.facts.words import is_known as is_known
 from planner_ft.facts.words import missing_words as missing_words
 from planner_ft.facts.words import normalised as normalised
-from planner_ft.facts.words import phrases as phrases
 from planner_ft.facts.words import unknown_words as unknown_words
 from planner_ft.facts.words import words as words

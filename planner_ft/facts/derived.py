@@ -93,6 +93,11 @@ class Ground:
             for turn in SQUARELY
         )
 
+    def away(self, bases: Iterable[Point]) -> Iterator[Point]:
+        """The points a stated way off some others in a stated direction."""
+        ways = itertools.product(bases, self.bearings, self.lengths)
+        return itertools.starmap(offset, ways)
+
     def _on_ring(self, x: float, y: float) -> bool:
         radius, bearing = math.hypot(x, y), math.degrees(math.atan2(x, y))
         if not any(abs(radius - length) <= CLOSE for length in self.lengths):

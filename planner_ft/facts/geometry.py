@@ -81,20 +81,18 @@ def lawnmower(
     `width` lies along x and `length` along y. The first lane starts at `corner`; lanes step away
     from it. Raises ValueError when `spacing` does not divide the extent across the lanes.
     """
-    south, west = corner.split("-")
-    sign_x, sign_y = (1 if west == "west" else -1), (1 if south == "south" else -1)
-    across, along = (width, length) if lanes_along == "y" else (length, width)
-    lanes = lane_count(across, spacing)
+    axis, size = (0 if lanes_along == "y" else 1), (width, length)
+    sides = (1 if "east" in corner else -1), (1 if "north" in corner else -1)
+    lanes = lane_count(size[axis], spacing)
     if lanes is None:
-        raise ValueError(f"lanes {spacing} m apart do not fill {across} m")
-    middle, depth = (center[0], center[1]) if lanes_along == "y" else (center[1], center[0])
-    side, end = (sign_x, sign_y) if lanes_along == "y" else (sign_y, sign_x)
-    near, far = tidy(depth + end * (-along / 2)), tidy(depth + end * (along / 2))
+        raise ValueError(f"lanes {spacing} m apart do not fill {size[axis]} m")
+    reach = sides[1 - axis] * size[1 - axis] / 2
     points = []
     for lane in range(lanes):
-        step = tidy(middle + side * (lane * spacing - across / 2))
-        for run in (near, far) if lane % 2 == 0 else (far, near):
-            points.append((step, run) if lanes_along == "y" else (run, step))
+        step = center[axis] + sides[axis] * (size[axis] / 2 - lane * spacing)
+        for end in (reach, -reach) if lane % 2 == 0 else (-reach, reach):
+            run = center[1 - axis] + end
+            points.append(point(step, run) if axis == 0 else point(run, step))
     return points
 
 

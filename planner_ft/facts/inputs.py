@@ -57,12 +57,12 @@ class Input:
     ) -> Evidence:
         """Where a value is from; a waypoint (WAYPOINT) may follow from those `before` it."""
         if parameter is WAYPOINT:
-            return self._waypoint(value, tolerance, before)
+            return self._place(value, tolerance, before)
         place = is_place(value) and parameter.type == "position"
         if place and tuple(value) in (self.vocabulary.home, self.vocabulary.unresolved):
             return Evidence("vehicle")
         if parameter.type == "polygon" and isinstance(value, list):
-            return reading.together(self._corner(corner, tolerance) for corner in value)
+            return reading.together(self._place(corner, tolerance, None) for corner in value)
         found = self.stated(value, parameter, tolerance)
         if found.kind != "nobody":
             return found
@@ -107,35 +107,20 @@ class Input:
             spacing if sizes else None,
         )
 
-    # ------------------------------------------------------------ places
-
-    def _corner(self, corner: Any, tolerance: float) -> Evidence:
-        """Its coordinates may be those of two places: "the box from (0, 0) to (40, 20)"."""
-        if not is_place(corner):
-            return NOBODY
-        found = self.stated(corner, WAYPOINT, tolerance)
-        if found.kind != "nobody":
-            return found
-        if self.ground and self.ground.has_shape_through(_point(corner)):
-            return Evidence("derived")
-        places = [*self._places, *((place.x, place.y) for place in self.facts.positions)]
-        places += [self.vocabulary.home, self.vocabulary.unresolved]
-        if all(any(near(corner[at], place[at], tolerance) for place in places) for at in (0, 1)):
-            return Evidence("derived")
-        return UNREAD if self.facts.loose else found
-
-    def _waypoint(self, value: Any, tolerance: float, before: Iterable[Point]) -> Evidence:
+    def _place(self, value: Any, tolerance: float, before: Iterable[Point] | None) -> Evidence:
+        """Where a waypoint behind those `before` is from; None for a corner of an area."""
         if not is_place(value):
             return NOBODY
-        if _point(value) == _point(self.vocabulary.home):
+        point = _point(value)
+        if before is not None and point == _point(self.vocabulary.home):
             return Evidence("vehicle")
         found = self.stated(value, WAYPOINT, tolerance)
         if found.kind != "nobody":
             return found
+        if self.ground and self.ground.leads_to(point, before or ()):
+            return Evidence("derived")
         # Any waypoint may be meant where the geometry cannot be read.
-        if self.ground is None:
-            return UNREAD
-        return Evidence("derived") if self.ground.leads_to(_point(value), before) else found
+        return UNREAD if (self.facts.loose if before is None else not self.ground) else found
 
     # ------------------------------------------------------------ parameters of the task
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from planner_ft.facts.lists import DIGITS, FRACTIONS, UNITS, WORDS
-from planner_ft.facts.numerals import AND, Row, unit_of
+from planner_ft.facts.numerals import AND, Row
 from planner_ft.facts.words import edit_distance, is_known
 
 WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
@@ -111,10 +111,11 @@ def in_unit(text: str, unit: str | None) -> Iterator[Number]:
 
 @functools.lru_cache(maxsize=64)
 def read_rows(text: str) -> tuple[Row, ...]:
-    """A text as it stands, and with its spelling put right in the ways that it can be."""
+    """A text with the spelling of its units put right, and in the ways that all of it can be."""
     row = Row.of(text)
-    rows = {tuple(one.tokens): one for one in (row, *(row.mended(THOROUGH, at) for at in CHOICES))}
-    return tuple(rows.values())
+    plain = row.mended(THOROUGH, numerals=False)
+    rows = (plain, *(row.mended(THOROUGH, choice) for choice in CHOICES))
+    return tuple({tuple(one.tokens): one for one in rows}.values())
 
 
 @functools.lru_cache(maxsize=64)
@@ -207,7 +208,7 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
         else:
             said = value + fraction
             yield number(said * unit[1], unit[0], said, more)
-            time = unit_of(row.word(behind)) if unit[0] == "m" else None
+            time = UNITS.get(row.word(behind)) if unit[0] == "m" else None
             if time and time[0] == "s":  # "one metre second"
                 yield number(value * unit[1] / time[1], "m/s", value, behind + 1)
             if fraction and row.word(more) in WORDS["bare_units"]:
@@ -223,7 +224,7 @@ def _rate(row: Row, index: int) -> tuple[float, int]:
     if [row.word(index + place) for place in range(3)] == ["s", "-", "1"]:
         return 1.0, index + 3
     if row.word(index) in ("per", "a", "an", "each", "every", "/"):
-        unit = unit_of(row.word(index + 1))
+        unit = UNITS.get(row.word(index + 1))
         if unit is not None and unit[0] == "s":
             return unit[1], index + 2
     return 0.0, index

@@ -5,14 +5,13 @@ twenty metres". Where a row can be read in several ways, each is given, the plai
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from planner_ft.facts import lists
 from planner_ft.facts.lists import DIGITS, FRACTIONS, PARTS, SCALES, SMALL, UNITS, WORDS
-from planner_ft.facts.words import corrections, edit_distance
+from planner_ft.facts.words import corrections
 
 AND, SAID = WORDS["and"], {**DIGITS, **lists.PRONOUNCED}
 MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
@@ -67,23 +66,23 @@ class Row:
                 row._write(index, "two")
         return row
 
-    def mended(self, until: int, choice: int) -> Row:
-        """The row with misspelt numerals and units put right up to a place of the text, by the
+    def mended(self, until: int, choice: int = 0, *, numerals: bool = True) -> Row:
+        """The row with misspelt units, and `numerals`, put right up to a place of the text, by the
         likeliest word or another `choice`: "quartesr", "two hous"; "secotrs" are no seconds.
         """
         other, behind = Row(self.text, list(self.tokens)), False
         for index, (word, start, _end) in enumerate(self.tokens):
             if start >= until:
                 break
-            if len(word) > 2 and word.isalpha() and word not in UNITS and word not in NUMERALS:
-                meant = corrections(word)
-                known = [one for one in meant if one in NUMERALS] if len(word) > 3 else []
-                if behind and not unit_of(word):
-                    known = [one for one in meant if one in UNITS] or known
-                elif not known and unit_of(word) and meant and meant[0] not in UNITS:
-                    known = [meant[0]]
-                if known:
-                    other._write(index, known[choice % len(known)])
+            meant = corrections(word) if word.isalpha() and word not in UNITS else ()
+            likely = len(word) > 3 and numerals
+            known = [one for one in meant if one in NUMERALS] if likely else []
+            if behind and (units := [one for one in meant if one in UNITS]):
+                known = list(dict.fromkeys((units[0], meant[0], *units)))
+            elif not known and meant[:1] and meant[0] in WORDS["bare_units"]:
+                known = [meant[0]]
+            if known and word not in NUMERALS:
+                other._write(index, known[choice % len(known)])
             passed = behind and word in WORDS["beside_unit"]
             behind = passed or word[0].isdigit() or word in NUMERALS or word in WORDS["articles"]
         return other
@@ -142,7 +141,7 @@ class Row:
         several = {"three": 3, "two": 2}.get(first, 0)
         if several and second.startswith(("quarter", "third")) and several * PARTS[second] < 1:
             # "And three quarters of a turn" is something else.
-            whole = third not in TURNED and (second.endswith("s") or unit_of(third))
+            whole = third not in TURNED and (second.endswith("s") or third in UNITS)
             return (several * PARTS[second], index + 3) if whole else nothing
         if first in MIXED:
             return MIXED[first], index + 2
@@ -158,19 +157,14 @@ class Row:
             index += self.word(index) in WORDS["beside_unit"]
         if self.word(index) == "per" and self.word(index + 1) == "cent":
             return UNITS["percent"], index + 2
-        return unit_of(self.word(index)), index + 1
+        return UNITS.get(self.word(index)), index + 1
 
     def bare_unit(self, index: int) -> bool:
         """Whether a unit without a number begins here: "wait minute at each", "full mnute"."""
         at = index + (self.word(index) in WORDS["whole"])
         word, before = self.word(at), self.word(index - 1)
-        misspelt = word not in UNITS and not word.endswith("s")
-        return (
-            len(word) > 2
-            and unit_of(word) is not None
-            and (word in WORDS["bare_units"] or misspelt)
-            and not (before in COUNTED or before in WORDS["whole"] or before[:1].isdigit())
-        )
+        counted = before in COUNTED or before in WORDS["whole"] or before[:1].isdigit()
+        return word in WORDS["bare_units"] and not counted
 
     def _spoken(self, index: int) -> Iterator[Reading]:
         """A number in words: "one two zero" as over the radio, or "one hundred and twenty"."""
@@ -244,20 +238,6 @@ class Row:
         """Whether an ordinal is a part of a unit: "tenth of an hour", "eighth of a turn"."""
         word, of, article = (self.word(index + place) for place in range(3))
         return word in lists.ORDINALS and of == "of" and article in ("a", "an", "the")
-
-
-@functools.lru_cache(maxsize=4096)
-def unit_of(word: str) -> Unit | None:
-    """The unit that a word means, misspelt or not: "minuets" are minutes, "horu" is an hour."""
-    if word in UNITS or word in SMALL or len(word) < 4:
-        return UNITS.get(word)
-    limit = 0 if len(word) == 4 else 1 if len(word) == 5 else 2
-    for name, unit in UNITS.items():
-        if len(name) >= 4 and name[0] == word[0]:
-            near = len(name) >= 5 and limit and edit_distance(word, name, limit) <= limit
-            if near or sorted(word) == sorted(name):
-                return unit
-    return None
 
 
 def _figure(word: str) -> float | None:

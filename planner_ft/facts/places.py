@@ -73,12 +73,18 @@ _AXIS_BEHIND = re.compile(
     r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))",
     re.IGNORECASE,
 )
+_COURSES = {
+    **{name.replace("-", ""): 22.5 * place for place, name in enumerate(COMPASS)},
+    **{name.lower(): 22.5 * place for place, name in enumerate(SHORT)},
+}
+_NAMES = "|".join(name.replace("-", r"[\s-]?") for name in sorted(COMPASS, key=len, reverse=True))
+# A hyphen stands between two directions, and in no "south-side".
 _BEARING = re.compile(
-    r"(?i:(?<![\w-])(?:(?:north|south|east|west)[\s-]?){1,3}(?:erly|wards?|ern|bound)?(?![\w-]))"
+    rf"(?i:(?<!\w)(?<!(?<!north|south)(?<!east|west)-)(?P<point>{_NAMES})"
+    rf"(?:erly|wards?|ern|[ -]?bound)?(?!\w|-(?!{_NAMES})))"
     r"|\b(?:[NSEW]{1,3}|[ns][ns]?[ew]|[ew][ns][ew])\b"
 )
-_POINT = re.compile(r"north|south|east|west", re.IGNORECASE)
-_ENDING = re.compile(r"erly|wards?|ern|[ -]?bound", re.IGNORECASE)
+_BLANKS = re.compile(r"[\s-]")
 _PART = re.compile(
     r" of (?:a|an|the) (?:full |complete |whole )?"
     r"(?:turn|circle|rotation|revolution|circuit|round)\b",
@@ -254,22 +260,9 @@ def read_bearings(text: str) -> tuple[Number, ...]:
     """Compass directions that a text names, in degrees clockwise from north."""
     found = []
     for match in _BEARING.finditer(text):
-        if match[0].upper() in SHORT:
-            angle = 22.5 * SHORT.index(match[0].upper())
+        angle = _COURSES.get(_BLANKS.sub("", match["point"] or match[0]).lower())
+        if angle is not None:
             found.append(Number(angle, WRITTEN, *match.span(), "deg", angle))
-            continue
-        # As many words as possible in each: "north" and "south-east" of "north south-east".
-        points = list(_POINT.finditer(text, *match.span()))
-        while points:
-            for many in (3, 2, 1):
-                name = "-".join(point[0].lower() for point in points[:many])
-                if name in COMPASS:
-                    break
-            end = points[min(many, len(points)) - 1].end()
-            ending, angle = _ENDING.match(text, end), 22.5 * COMPASS.index(name)
-            end = ending.end() if ending else end
-            found.append(Number(angle, WRITTEN, points[0].start(), end, "deg", angle))
-            points = points[many:]
     return tuple(found)
 
 

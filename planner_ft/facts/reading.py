@@ -15,6 +15,7 @@ from planner_ft.facts.numbers import AS_BEFORE, BARE, IN_PAIR, REREAD, THOROUGH,
 from planner_ft.facts.places import Geographic, Position
 from planner_ft.facts.words import Phrases, Span, is_known, phrases
 from planner_ft.vocabulary import Parameter
+from planner_ft.vocabulary.plans import is_number as is_number
 
 Kind = Literal["stated", "converted", "derived", "vehicle", "nobody", "unread"]
 EXACT, SCORING = 0.0, 0.02
@@ -213,11 +214,6 @@ def read(text: str) -> Facts:
 
 
 # ---------------------------------------------------------------- comparing values
-
-
-def is_number(value: Any) -> bool:
-    """Whether a JSON value is a number; true and false are none."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def is_place(value: Any) -> bool:

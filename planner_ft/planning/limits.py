@@ -7,10 +7,12 @@ for it: planning carries it into the steps as a filter (planner_ft.document.limi
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.facts import read
+from planner_ft.facts.places import without_geographic
+from planner_ft.facts.rows import positions_of, rows_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import (
     Limit,
@@ -26,6 +28,7 @@ GENERAL = ("fence", "keep_out_area", "keep_out", "clearance", "distance", "speed
 """Kinds that are kept for the whole mission when one task prompt has them; the others can be meant
 for that task alone.
 """
+CORNERS = 3
 SENTENCE = re.compile(r"(?<=\.)\s+(?=[A-Z])")
 
 
@@ -43,14 +46,18 @@ def with_limits(
 ) -> dict[str, Any]:
     """The mission plan with its limits in the prompts of all tasks, and those that stand in one
     prompt alone among its constraints. A time of return that the command does not say is left out,
-    and one that is a duration is a time to be back within.
+    and one that is a duration is a time to be back within. An area that has a corner twice is the
+    one row of the command that has all of its corners.
     """
     limits = load_limits(vocabulary)
-    constraints = list(_kept(plan.get("constraints", ()), command, limits, sentence))
-    prompts = [
-        list(_kept(SENTENCE.split(task["task_prompt"]), command, limits, prompt_sentence))
-        for task in plan["tasks"]
-    ]
+    rows = areas_of(command) if command else []
+
+    def kept(texts: Iterable[str], write: Callable[..., str]) -> list[str]:
+        whole = (_whole(text, rows, limits, write) for text in texts)
+        return list(_kept(whole, command, limits, write))
+
+    constraints = kept(plan.get("constraints", ()), sentence)
+    prompts = [kept(SENTENCE.split(task["task_prompt"]), prompt_sentence) for task in plan["tasks"]]
     stated = limits_in(constraints, limits)
     for limit in limits_in([text for texts in prompts for text in texts], limits):
         if limit.kind in GENERAL and not any(_same(limit, one) for one in stated):
@@ -113,6 +120,26 @@ def _kept(
             known = {name for form in limits["return"].sentences for name in slots(form)}
             lasts = "within" in known and not limit.titles and time_left(limit.values) is not None
             yield write("return", {"within": time}, limits) if lasts else text
+
+
+def areas_of(command: str) -> list[list[list[float]]]:
+    """The rows of positions of a command that can be the corners of an area."""
+    text = without_geographic(command)
+    rows = rows_of(text, positions_of(text))
+    return [[[place.x, place.y] for place in row] for row in rows if len(row) >= CORNERS]
+
+
+def _whole(
+    text: str, rows: Sequence[list[list[float]]], limits: Limits, write: Callable[..., str]
+) -> str:
+    """The sentence of a limit with all corners of its area, where it has one of them twice."""
+    limit = read_limit(text, limits)
+    corners = limit.values.get("polygon", []) if limit else []
+    ends = corners[:-1] if corners[:1] == corners[-1:] else corners
+    if limit is None or limit.titles or all(ends.count(corner) == 1 for corner in ends):
+        return text
+    meant = [row for row in rows if all(corner in row for corner in ends)]
+    return write(limit.kind, {"polygon": meant[0]}, limits) if len(meant) == 1 else text
 
 
 def _same(one: Limit, other: Limit) -> bool:

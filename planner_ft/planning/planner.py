@@ -103,7 +103,7 @@ class Planner:
         if mission.plan is not None:
             unsure = doubts(frame.spoken, mission.plan, mission.judged, self.vocabulary)
             told = frame.restored(mission.plan, self.vocabulary)
-            mission = replace(mission, plan=with_limits(told, self.vocabulary, command))
+            mission = replace(mission, plan=with_limits(told, self.vocabulary, frame.spoken))
         tasks: tuple[PlannedTask, ...] = ()
         places: list[OpenPlace] = []
         located = {}

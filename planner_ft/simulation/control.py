@@ -11,8 +11,12 @@ FIX_SIGMA = 0.25
 """Metres, of a GPS fix along each axis: ASSUMPTION, a receiver with corrections."""
 FIX_EVERY = 1.0
 """Seconds between two fixes."""
-DRIFT, GUST = 0.05, 1e-4
-"""m/s that the water may drift by at the start, and (m/s)^2/s by which that may change."""
+DRIFT, GUST = 0.05, 1e-5
+"""m/s that the water may drift by at the start, and (m/s)^2/s by which that may change: 0.024 m/s
+a minute, three times what a tide of 1 m/s changes by.
+"""
+MOORED = 60.0
+"""Seconds for which the vehicle has lain at its start with the receiver on: ASSUMPTION."""
 MOST_YAW = 0.7
 """Share of the thrust that steering may take; going ahead has the rest."""
 
@@ -83,8 +87,14 @@ class Localiser:
     def __init__(self, place: Floats, generator: np.random.Generator) -> None:
         self.position, self.drift = place.copy(), np.zeros_like(place)
         self.fix, self.silent = place.copy(), np.zeros(len(place))
-        self.spread = np.diag([0.0, DRIFT**2])
+        self.spread = np.diag([FIX_SIGMA**2, DRIFT**2])
         self.generator = generator
+
+    def settle(self, pose: Floats, current: Floats, seconds: float) -> None:
+        """Lie still at `pose` before the start, so that fixes tell how the water moves."""
+        every, still = round(FIX_EVERY / seconds), np.zeros((len(pose), 4))
+        for step in range(1, round(MOORED / seconds) + 1):
+            self.step(pose, still, current, seconds, heard=True, due=step % every == 0)
 
     def step(
         self, pose: Floats, twist: Floats, current: Floats, seconds: float, heard: bool, due: bool

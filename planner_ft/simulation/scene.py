@@ -34,6 +34,7 @@ class Scene:
         self.vessel, self.seconds, self.steps = world.vessel, simulator.step_seconds, 0
         simulator.reset(starts)
         self.localiser = Localiser(starts[:, :2], world.generator)
+        self.localiser.settle(simulator.pose, world.currents(0.0), self.seconds)
         self.autopilot = Autopilot(world.vessel, count)
         self.command, self.idle = np.zeros((count, 4)), np.zeros(count, dtype=bool)
         self.broken = np.zeros(count, dtype=bool)

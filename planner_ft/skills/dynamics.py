@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import torch
 from torch import Tensor
@@ -89,16 +90,12 @@ class Dynamics:
         drive = self._clip(ahead / 2, own.thrust - steer.abs())
         return 2 * drive, steer * own.track, first, second
 
-    def _clip(self, value: Tensor, most: float | Tensor) -> Tensor:
-        """`value` between -most and most."""
-        clipped = torch.minimum(torch.maximum(value, -_tensor(most, value)), _tensor(most, value))
+    def _clip(self, value: Tensor, most: Any) -> Tensor:
+        """`value` between -most and most, a float or (B,)."""
+        clipped = value.clamp(-most, most)
         if not self.leak:
             return clipped
         return clipped + LEAK * ((value - clipped) - (value - clipped).detach())
-
-
-def _tensor(value: float | Tensor, like: Tensor) -> Tensor:
-    return value if isinstance(value, Tensor) else like.new_tensor(value)
 
 
 def wrapped(angle: Tensor) -> Tensor:

@@ -42,7 +42,7 @@ def play(
         ended = world.step(actor(world))
         for one, outcome in enumerate(ended.outcome):
             if outcome and found[one] is None:
-                error = float(world.off[one] / world.off_steps[one].clamp_min(1))
+                error = float(world.off[one] / world.time[one].clamp_min(1))
                 figures = error, int(world.time[one]), float(world.length[one])
                 found[one] = Episode(families[one], outcome, *figures)
     return [one for one in found if one is not None]

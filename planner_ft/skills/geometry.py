@@ -78,6 +78,8 @@ def hull_distance(body: Tensor) -> Tensor:
 
 def touching(pose: Tensor, outline: Tensor, away: Tensor) -> Tensor:
     """Whether a boundary point touches the hull (B,); `away` (B,) are distances to the nearest."""
+    if torch.compiler.is_compiling():  # no shapes that hang on values
+        return hull_distance(to_body(outline, pose)).amin(dim=1) < TOUCH
     close = torch.nonzero(away < HULL_RADIUS + TOUCH)[:, 0]
     touched = torch.zeros(len(pose), dtype=torch.bool)
     if len(close):

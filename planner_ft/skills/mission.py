@@ -17,8 +17,9 @@ from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.skills import geometry
+from planner_ft.skills.option import ARRIVED
 from planner_ft.skills.policies import Policy, read_policy
-from planner_ft.skills.survey import ARRIVED, OPTION, observation, waypoint
+from planner_ft.skills.survey import OPTION, observation, waypoint
 from planner_ft.skills.surveyor import Memory
 from planner_ft.skills.tracker import aimed
 from planner_ft.support.errors import PlannerError

@@ -1,8 +1,11 @@
-"""The published recipe of SurveyTarget: PPO over options, by torchrl."""
+"""The published recipe of SurveyTarget: PPO over options. Advantages are torchrl's; the loss is that
+of its `ClipPPOLoss` in one function of tensors, which torch compiles.
+"""
 
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -10,15 +13,13 @@ from typing import Any
 
 import numpy as np
 import torch
-from tensordict import TensorDict
-from tensordict.nn import InteractionType, TensorDictModule
-from torchrl.modules import ProbabilisticActor, TanhNormal, ValueOperator
-from torchrl.objectives import ClipPPOLoss
-from torchrl.objectives.value import GAE
+from torch import Tensor, nn
+from torchrl.objectives.value.functional import generalized_advantage_estimate
 
 from planner_ft.skills.checkpoint import Checkpoint
 from planner_ft.skills.dynamics import Dynamics, published_vessel
-from planner_ft.skills.survey import Survey, Task
+from planner_ft.skills.option import Compiled
+from planner_ft.skills.survey import NUMBERS, Survey, Task
 from planner_ft.skills.surveyor import Surveyor
 from planner_ft.skills.tracker import Tracker
 
@@ -54,49 +55,99 @@ class PpoSettings:
         return Task(weights=weights).without(self.without)
 
 
+@dataclass
+class Batch:
+    """Options (E, T): what was seen (68), the pre-tanh action drawn (2), what was seen after it
+    (68), its reward, whether it ended the episode for good, and whether it ended it.
+    """
+
+    seen: Tensor
+    drawn: Tensor
+    after: Tensor
+    reward: Tensor
+    terminated: Tensor
+    done: Tensor
+
+
 class Learner:
     """Actor, critic, loss and optimizer."""
 
     def __init__(self, settings: PpoSettings) -> None:
         self.settings, self.surveyor = settings, Surveyor("published")
-        spread = TensorDictModule(
-            self.surveyor.spread, in_keys=["observation"], out_keys=["loc", "scale"]
-        )
-        self.actor = ProbabilisticActor(
-            spread,
-            in_keys=["loc", "scale"],
-            distribution_class=TanhNormal,
-            return_log_prob=True,
-            default_interaction_type=InteractionType.RANDOM,
-        )
-        self.critic = ValueOperator(self.surveyor.critic(), in_keys=["observation"])
-        self.advantage = GAE(gamma=settings.gamma, lmbda=settings.lmbda, value_network=self.critic)
-        self.loss = ClipPPOLoss(
-            self.actor,
-            self.critic,
-            clip_epsilon=settings.clip,
-            entropy_coeff=settings.entropy,
-            normalize_advantage=True,
-        )
-        self.optimizer = torch.optim.Adam(self.loss.parameters(), lr=settings.rate)
+        self.critic = self.surveyor.critic()
+        self.nets = nn.ModuleList([self.surveyor, self.critic])
+        self.optimizer = torch.optim.Adam(self.nets.parameters(), lr=settings.rate, fused=True)
+        self.draw, self.loss = Compiled(self._draw), Compiled(self._loss)
 
-    def learn(self, batch: TensorDict, random: torch.Generator) -> float:
-        """Some epochs over a batch (environments, time); the mean loss."""
+    def _draw(self, seen: Tensor, noise: Tensor) -> tuple[Tensor, Tensor]:
+        """Actions of a TanhNormal (B, 2) before the tanh, and as they are."""
+        location, spread = self.surveyor.spread(seen)
+        drawn = location + spread * noise
+        return drawn, torch.tanh(drawn)
+
+    def _loss(
+        self,
+        seen: Tensor,
+        drawn: Tensor,
+        before: Tensor,
+        advantage: Tensor,
+        value: Tensor,
+        noise: Tensor,
+    ) -> Tensor:
+        """The loss of a minibatch (B, ...): clipped objective, entropy bonus, and the critic's.
+
+        `before` (B,) are log-densities of `drawn` when it was drawn, `value` (B,) is what the
+        critic should have said, and `noise` (B, 2) draws the action that estimates the entropy.
+        """
         settings = self.settings
-        with torch.no_grad():
-            self.advantage(batch)
-        flat, total, updates = batch.reshape(-1), 0.0, 0
+        location, spread = self.surveyor.spread(seen)
+        ratio = density(drawn, location, spread) - before  # the tanh's slope cancels out
+        clipped = ratio.clamp(math.log1p(-settings.clip), math.log1p(settings.clip))
+        advantage = (advantage - advantage.mean()) / advantage.std().clamp_min(1e-6)
+        gain = torch.minimum(ratio.exp() * advantage, clipped.exp() * advantage)
+        other = location + spread * noise
+        slope = 2 * (math.log(2) - other - nn.functional.softplus(-2 * other)).sum(dim=-1)
+        entropy = slope - density(other, location, spread)
+        wrong = nn.functional.smooth_l1_loss(self.critic(seen)[:, 0], value)
+        loss: Tensor = wrong - gain.mean() - settings.entropy * entropy.mean()
+        return loss
+
+    @torch.no_grad()
+    def judge(self, batch: Batch) -> tuple[Tensor, Tensor, Tensor]:
+        """Log-densities of what was drawn, advantages and values, for all options (E T,)."""
+        settings = self.settings
+        before = density(batch.drawn, *self.surveyor.spread(batch.seen))
+        found = generalized_advantage_estimate(
+            settings.gamma,
+            settings.lmbda,
+            self.critic(batch.seen),
+            self.critic(batch.after),
+            *(batch.reward[..., None], batch.done[..., None], batch.terminated[..., None]),
+        )
+        return before.flatten(), found[0].flatten(), found[1].flatten()
+
+    def learn(self, batch: Batch, random: torch.Generator) -> float:
+        """Some epochs over a batch; the mean loss."""
+        settings, losses = self.settings, []
+        known = batch.seen.flatten(0, 1), batch.drawn.flatten(0, 1), *self.judge(batch)
         for _epoch in range(settings.epochs):
-            order = torch.randperm(len(flat), generator=random)
+            order = torch.randperm(len(known[0]), generator=random)
+            noise = torch.randn(len(order), 2, generator=random)
             for some in torch.split(order, settings.minibatch):
-                parts = self.loss(flat[some])
-                loss = sum(value for key, value in parts.items() if key.startswith("loss_"))
+                loss = self.loss(*(one[some] for one in known), noise[some])
                 self.optimizer.zero_grad()
                 torch.autograd.backward(loss)
-                torch.nn.utils.clip_grad_norm_(self.loss.parameters(), settings.norm)
+                nn.utils.clip_grad_norm_(self.nets.parameters(), settings.norm)
                 self.optimizer.step()
-                total, updates = total + float(loss.detach()), updates + 1
-        return total / updates
+                losses.append(loss.detach())
+        return float(torch.stack(losses).mean())
+
+
+def density(drawn: Tensor, location: Tensor, spread: Tensor) -> Tensor:
+    """Log-density (...) of `drawn` (..., 2) under a normal distribution."""
+    apart = (drawn - location) / spread
+    each = -apart.square() / 2 - spread.log() - math.log(2 * math.pi) / 2
+    return each.sum(dim=-1)
 
 
 def train(
@@ -107,47 +158,51 @@ def train(
     learner = Learner(settings)
     drawn = np.random.default_rng([settings.seed, 13])
     dynamics = Dynamics(published_vessel())
-    world = Survey(settings.task, settings.environments, dynamics, tracker, drawn)
+    many = settings.environments
+    world = Survey(settings.task, many, dynamics, tracker, drawn, compiled=True)
     random = torch.Generator().manual_seed(settings.seed)
-    kept = Checkpoint(folder, asdict(settings), learner.loss, learner.optimizer)
-    best: dict[str, Any] = {"reward": -np.inf, "iteration": 0, "weights": {}}
+    kept = Checkpoint(folder, asdict(settings), learner.nets, learner.optimizer)
+    best: dict[str, Any] = {"reward": -math.inf, "iteration": 0, "weights": {}}
     done = kept.restore(random) if resume else 0
     if done:
         world.restore(kept.more["world"])
         best = kept.more["best"]
-    for iteration in range(done, settings.iterations):
-        if iteration - best["iteration"] >= settings.patience and iteration:
-            break
-        batch, ended = collect(world, learner, settings.frames // settings.environments)
-        reward = float(batch["next", "reward"].mean())
+    while done < settings.iterations and done - best["iteration"] < settings.patience:
+        batch, ended = collect(world, learner, settings.frames // many, random)
+        reward = float(batch.reward.mean())
         if reward > best["reward"]:
             weights = copy.deepcopy(learner.surveyor.state_dict())
-            best = {"reward": reward, "iteration": iteration + 1, "weights": weights}
+            best = {"reward": reward, "iteration": done + 1, "weights": weights}
         loss = learner.learn(batch, random)
         share = {name: ended.count(name) for name in sorted(set(ended))}
-        kept.add({"iteration": iteration + 1, "reward": reward, "loss": loss, **share})
-        report(f"PPO, mean reward {reward:.2f}", iteration + 1, settings.iterations)
-        if kept.due(5 * (iteration + 1), 5 * settings.iterations):
-            kept.save(iteration + 1, random, {"world": world.snapshot(), "best": best})
+        done += 1
+        kept.add({"iteration": done, "reward": reward, "loss": loss, **share})
+        report(f"PPO, mean reward {reward:.2f}", done, settings.iterations)
+        over = done - best["iteration"] >= settings.patience
+        if over or kept.due(5 * done, 5 * settings.iterations):
+            kept.save(done, random, {"world": world.snapshot(), "best": best})
     learner.surveyor.load_state_dict(best["weights"])
-    return {"policy": learner.surveyor, "losses": kept.log, "best": best["iteration"]}
+    result = {"best": best["iteration"], "reward": best["reward"]}
+    return {"policy": learner.surveyor, "losses": kept.log, "result": result}
 
 
 @torch.no_grad()
-def collect(world: Survey, learner: Learner, options: int) -> tuple[TensorDict, list[str]]:
+def collect(
+    world: Survey, learner: Learner, options: int, random: torch.Generator
+) -> tuple[Batch, list[str]]:
     """A batch (environments, options) under the policy, and how episodes ended."""
-    steps, outcomes = [], []
-    for _option in range(options):
-        step = learner.actor(TensorDict({"observation": world.observe()}, [world.count]))
-        ended = world.step(step["action"])
-        after = {
-            "observation": world.observe(),
-            "reward": ended.reward[:, None],
-            "terminated": ended.terminated[:, None],
-            "done": ended.done[:, None],
-        }
-        step["next"] = TensorDict(after, [world.count])
-        steps.append(step)
+    shape, outcomes = (world.count, options), list[str]()
+    wide, flags = torch.zeros(*shape, NUMBERS), torch.zeros(*shape, dtype=torch.bool)
+    batch = Batch(
+        *(wide, torch.zeros(*shape, 2), wide.clone(), torch.zeros(shape), flags, flags.clone())
+    )
+    noise = torch.randn(options, world.count, 2, generator=random)
+    for at in range(options):
+        batch.seen[:, at] = seen = world.observe()
+        batch.drawn[:, at], action = learner.draw(seen, noise[at])
+        ended = world.step(action)
+        batch.after[:, at], batch.reward[:, at] = world.observe(), ended.reward
+        batch.terminated[:, at], batch.done[:, at] = ended.terminated, ended.done
         outcomes += [one for one in ended.outcome if one]
         world.reset(torch.nonzero(ended.done)[:, 0].tolist())
-    return torch.stack(steps, dim=1), outcomes
+    return batch, outcomes

@@ -9,7 +9,7 @@ are marked as chosen.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -20,11 +20,12 @@ from torch import Tensor
 
 from planner_ft.skills import geometry
 from planner_ft.skills.dynamics import CURRENT, Dynamics, turned
+from planner_ft.skills.option import Before, Compiled, Way, advance, judge
 from planner_ft.skills.shapes import POINTS, RADIUS, Floats, draw_outline, offset_path
-from planner_ft.skills.tracker import Tracker, aimed
+from planner_ft.skills.tracker import Tracker
 
-OPTION, ARRIVED = 15, 0.25
-"""Time steps of an option at most, and metres within which its waypoint is reached."""
+OPTION = 15
+"""Time steps of an option at most (published)."""
 AHEAD, ASIDE = (0.5, 4.0), 3.0
 """Chosen: metres of a waypoint ahead (w_min, w_max) and to either side (w_y,max)."""
 LONGEST = 150
@@ -33,11 +34,12 @@ have followed counts, or learners that are paid while they go round would put of
 """
 CLEAR = geometry.HULL_RADIUS + geometry.TOUCH
 """Chosen: metres from all of the outline at the start."""
-BAND = 0.5
-"""Metres about the stand-off in which a waypoint is rewarded."""
 WAY = 256
 """Points of the way at the stand-off that a teacher knows."""
 NUMBERS = geometry.RAYS + 4
+NAMES = ("collision", "success", "lost", "late")
+Cast = Callable[[Tensor, Tensor], Tensor]
+Wrap = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,11 @@ class Task:
     progress_weight: float = 1.0
     visibility_weight: float = 0.2
     rounding: float | None = None
+
+    @property
+    def rewards(self) -> tuple[float, float, float]:
+        """Weights of stand-off, progress and visibility."""
+        return self.standoff_weight, self.progress_weight, self.visibility_weight
 
     def without(self, term: str | None) -> Task:
         """The task without a term of its reward: standoff, progress or visibility."""
@@ -85,7 +92,8 @@ class Ended:
 class Survey:
     """B vehicles, each before a structure of its own; `random` draws objects and everything else.
 
-    `fixed` (per vehicle an outline and a stand-off) makes episodes of these, in turn.
+    `families` are those of the vehicles, else each episode draws one; `compiled` costs a minute, and
+    then saves most of a time step of a few vehicles.
     """
 
     def __init__(
@@ -96,6 +104,7 @@ class Survey:
         tracker: Tracker,
         random: np.random.Generator,
         families: Sequence[str] | None = None,
+        compiled: bool = False,
     ) -> None:
         self.task, self.count, self.dynamics, self.tracker = task, count, dynamics, tracker
         self.random, self.given = random, families
@@ -108,8 +117,10 @@ class Survey:
         self.index = torch.zeros(count, dtype=torch.long)
         self.lap, self.left = torch.zeros(count), torch.zeros(count)
         self.options, self.time = torch.zeros(count), torch.zeros(count)
-        self.off, self.off_steps = torch.zeros(count), torch.zeros(count)
-        self.length = torch.zeros(count)
+        self.off, self.length = torch.zeros(count), torch.zeros(count)
+        wrap: Wrap = Compiled if compiled else _plain
+        self.advance, self.cast = wrap(advance), wrap(geometry.ranges)
+        self.judge = wrap(judge)
         self.reset(range(count))
 
     @property
@@ -124,7 +135,7 @@ class Survey:
         for one in which:
             self._draw(one)
         index = torch.as_tensor(list(which))
-        for total in (self.lap, self.options, self.time, self.off, self.off_steps, self.length):
+        for total in (self.lap, self.options, self.time, self.off, self.length):
             total[index] = 0.0
         self.left[index] = OPTION
         self.index[index] = geometry.nearest(self.state[index, :2], self.outline[index])[1]
@@ -148,9 +159,9 @@ class Survey:
         self.current[one, 0] = speed * math.cos(set_to)
         self.current[one, 1] = speed * math.sin(set_to)
 
-    def _look(self, which: Tensor) -> None:
+    def _look(self, which: Tensor, cast: Cast = geometry.ranges) -> None:
         """Scan from where these vehicles are."""
-        scan = geometry.ranges(self.pose[which], self.outline[which])
+        scan = cast(self.pose[which], self.outline[which])
         if self.task.lost:
             share = self.task.lost * (1.0 if self.given else self.random.random((len(scan), 1)))
             gone = torch.as_tensor(self.random.random(scan.shape) < share)
@@ -179,66 +190,32 @@ class Survey:
         """Drive to the waypoints that actions (B, 2) name; episodes that end stay ended until they
         are `reset`.
         """
-        target = waypoint(action, self.pose)
-        before, place = self.index.clone(), self.state[:, :2]
-        to = target - place
+        target, before = waypoint(action, self.pose), self.index
+        to, none = target - self.state[:, :2], torch.zeros(self.count, dtype=torch.bool)
         goal = torch.cat([target, torch.atan2(to[:, 1], to[:, 0])[:, None]], dim=1)
-        active = torch.ones(self.count, dtype=torch.bool)
-        hit, steps = ~active, torch.zeros(self.count)
+        fixed = Before(self.outline, self.standoff, self.current, self.limits, target)
+        totals = self.lap, self.length, self.off, torch.zeros(self.count)
+        now = Way(self.state, goal, before, *totals, hit=none, active=~none)
         for _step in range(OPTION):
-            goal = aimed(self.state, goal)
-            self._advance(goal, active)
-            steps += active
-            away = self._follow(active)
-            hit |= active & geometry.touching(self.pose, self.outline, away)
-            there = (self.state[:, :2] - target).norm(dim=1) < ARRIVED
-            active &= ~(hit | there | (self.lap.abs() >= POINTS))
-            if not active.any():
+            now = self.advance(self.tracker, self.dynamics, now, fixed)
+            if not now.active.any():
                 break
-        self.left = OPTION - steps
-        self.time += steps
+        self.state, self.index, self.lap = now.state, now.point, now.lap
+        self.length, self.off = now.length, now.off
+        self.left = OPTION - now.steps
+        self.time = self.time + now.steps
         self.options += 1
-        self._look(torch.arange(self.count))
-        return self._judge(target, before, hit, steps)
-
-    def _advance(self, goal: Tensor, active: Tensor) -> None:
-        command = self.tracker.command(self.state, goal)
-        made = self.dynamics(self.state, command, self.current, self.limits)
-        moved = (made[:, :2] - self.state[:, :2]).norm(dim=1)
-        self.length += moved * active
-        self.state = torch.where(active[:, None], made, self.state)
-
-    def _follow(self, active: Tensor) -> Tensor:
-        """Distances to the nearest boundary points (B,); counts laps and errors."""
-        away, index = geometry.nearest(self.state[:, :2], self.outline)
-        self.lap += _advance(index, self.index) * active
-        self.index = torch.where(active, index, self.index)
-        self.off += (away - self.standoff).abs() * active
-        self.off_steps += active
-        return away
-
-    def _judge(self, target: Tensor, before: Tensor, hit: Tensor, steps: Tensor) -> Ended:
-        task = self.task
-        lap = (self.lap.abs() >= POINTS) & ~hit
-        seen = (self.scan < geometry.REACH).float().mean(dim=1)
-        lost = (seen == 0) & ~hit & ~lap
-        away = geometry.nearest(target, self.outline)[0]
-        wrong = geometry.inside(target, self.outline)
-        good = ((away - self.standoff).abs() <= BAND) & ~wrong
-        reward = task.standoff_weight * good
-        reward = reward + task.progress_weight * (_advance(self.index, before) / 4).clamp(-1, 1)
-        reward = reward + task.visibility_weight * (2 * seen - 1)
-        wrong |= geometry.inside(self.state[:, :2], self.outline)
-        reward = reward - 10.0 * hit - 5.0 * wrong - 3.0 * lost
-        terminated = hit | lost
+        self._look(torch.arange(self.count), self.cast)
+        reward, lap, lost = self.judge(self.task.rewards, now, fixed, before, self.scan)
+        terminated = now.hit | lost
         late = ~terminated & ~lap & (self.options >= LONGEST)
-        truncated = lap | late
-        kinds = zip(*(one.tolist() for one in (hit, lap, lost, late)), strict=True)
-        names = ("collision", "success", "lost", "late")
-        outcome = [
-            next((n for n, is_so in zip(names, k, strict=True) if is_so), None) for k in kinds
-        ]
-        return Ended(reward, terminated, truncated, steps, outcome)
+        kinds = torch.stack([now.hit, lap, lost, late], dim=1).tolist()
+        outcome = [next((n for n, so in zip(NAMES, k, strict=True) if so), None) for k in kinds]
+        return Ended(reward, terminated, lap | late, now.steps, outcome)
+
+
+def _plain(function: Callable[..., Any]) -> Callable[..., Any]:
+    return function
 
 
 def _spawn(
@@ -256,11 +233,6 @@ def _spawn(
         free = np.linalg.norm(outline - place, axis=1).min() > CLEAR
         if free and not shapely.Polygon(outline).contains(shapely.Point(place)):
             return place, along
-
-
-def _advance(index: Tensor, before: Tensor) -> Tensor:
-    """How many boundary points an index moved on, the short way round."""
-    return ((index - before + POINTS // 2) % POINTS - POINTS // 2).float()
 
 
 def waypoint(action: Tensor, pose: Tensor) -> Tensor:

@@ -647,15 +647,6 @@ def test_a_limit_that_a_later_configuration_cannot_keep_is_refused_before_the_fi
     assert work["rows"] == 0
 
 
-def test_a_limit_that_a_later_candidate_cannot_keep_is_refused_before_the_first(
-    settings: Any, work: dict[str, int]
-) -> None:
-    strengths = {"configurations": ("base", "base+schema"), "adapters": (), "max_new_tokens": 213}
-    with pytest.raises(PlannerError, match=f"{NAME}: --max-new-tokens 213: at strength schema"):
-        run_bench(settings(candidates=("embedded", NAME), **strengths))
-    assert work == {"models": 0, "rows": 0}
-
-
 def test_a_read_only_or_impossible_output_folder_is_one_sentence(
     settings: Any, tmp_path: Path
 ) -> None:

@@ -18,17 +18,9 @@ from torch import Tensor
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.candidates.loading import compute_dtype, load_model
-from planner_ft.decoding.forward import (
-    BLOCK,
-    KEYS,
-    SmallModel,
-    SmallPasses,
-    attention,
-    dynamic_values,
-    read_forms,
-    rounded_to_nf4,
-    small_model,
-)
+from planner_ft.candidates.weights import dynamic_values, rounded_to_nf4
+from planner_ft.decoding.attention import BLOCK, KEYS, attention
+from planner_ft.decoding.forward import SmallModel, SmallPasses, read_forms, small_model
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import load_vocabulary

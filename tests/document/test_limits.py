@@ -205,6 +205,21 @@ def test_a_limit_of_one_prompt_holds_for_the_mission_and_times_nobody_said_for_n
     assert kept[0] == "The vehicle is back by 16:30."
 
 
+def test_an_area_with_a_corner_twice_is_the_row_of_the_command() -> None:
+    command = "Stay in 0,0 150,0 150,150 0,150. Go to 9,9, then home."
+    wrong = "inside [0, 0], [150, 0], [150, 0], [150, 0]."
+    tasks = [{"title": "Transit", "parameters": {}, "task_prompt": f"Go to [9, 9]. Stay {wrong}"}]
+    told = {"tasks": tasks, "constraints": [f"The vehicle stays {wrong}"]}
+    plan = with_limits(told, USV, command)
+    whole = "[0, 0], [150, 0], [150, 150], [0, 150]."
+    assert plan["constraints"] == [f"The vehicle stays inside {whole}"]
+    assert plan["tasks"][0]["task_prompt"] == f"Go to [9, 9]. Stay inside {whole}"
+    for other in ("Stay in 0,0 90,0 90,90 0,90.", f"{command} Not 0,0 150,0 150,9."):
+        assert with_limits(told, USV, other)["constraints"] == told["constraints"]
+    closed = {"tasks": [], "constraints": [FENCE.replace("[0, 200].", "[0, 200], [0, 0].")]}
+    assert with_limits(closed, USV, "Stay in 0,0 200,0 200,200 0,200 9,9.") == closed
+
+
 def test_a_constraint_is_edited_and_its_filters_follow() -> None:
     plan = document([transit(100, 50)], constraints=["Be careful.", FENCE])
     plan = apply(plan, {"kind": "constraint", "at": 1}, USV)

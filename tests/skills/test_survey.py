@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import torch
 from planner_ft.skills.dynamics import Dynamics, published_vessel
 from planner_ft.skills.episodes import play
 from planner_ft.skills.followers import Follower, Guidance, Oracle
+from planner_ft.skills.option import Compiled
 from planner_ft.skills.shapes import PUBLISHED
 from planner_ft.skills.survey import Survey, Task, action_of, waypoint
 from planner_ft.skills.surveyor import Memory, Surveyor
@@ -106,6 +108,41 @@ def test_a_snapshot_goes_on_as_if_nothing_had_been() -> None:
         one.reset(range(2))
         after.append((one.state.clone(), one.observe()))
     assert torch.equal(after[0][0], after[1][0]) and torch.equal(after[0][1], after[1][1])
+
+
+def graph(function: Callable[..., Any]) -> Compiled:
+    """Compiled as far as the graph that a C++ compiler would get."""
+    one = Compiled(function)
+    one.fast = torch.compile(function, backend="aot_eager", dynamic=False, fullgraph=True)
+    return one
+
+
+def test_compiled_it_moves_sees_and_rewards_as_before() -> None:
+    plain, fast = world(4), world(4)
+    graphs = [graph(one) for one in (plain.advance, plain.cast, plain.judge)]
+    fast.advance, fast.cast, fast.judge = graphs
+    touched = 0
+    for turn in range(30):
+        action = torch.full((4, 2), 0.3 if turn % 2 else -0.5)
+        first, second = (one.step(action) for one in (plain, fast))
+        assert first.outcome == second.outcome
+        touched += first.outcome.count("collision")
+        assert torch.allclose(first.reward, second.reward, atol=1e-3)
+        assert torch.allclose(plain.observe(), fast.observe(), atol=1e-3)
+        for one in (plain, fast):
+            one.reset(torch.nonzero(first.done)[:, 0].tolist())
+    assert touched and all(one.works for one in graphs)
+
+
+def test_what_does_not_compile_runs_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    from torch._dynamo.exc import TorchDynamoException
+
+    def broken(_given: int) -> int:
+        raise TorchDynamoException("no compiler")
+
+    one = Compiled(lambda given: given + 1)
+    monkeypatch.setattr(one, "fast", broken)
+    assert one(2) == 3 and not one.works
 
 
 def test_memory_shows_past_returns_from_where_the_vehicle_is_now() -> None:

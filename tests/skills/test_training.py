@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +26,13 @@ TINY: dict[str, dict[str, Any]] = {
 
 class Killed(BaseException):
     """What stops a training for good."""
+
+
+@pytest.fixture(autouse=True)
+def uncompiled() -> Iterator[None]:
+    """Compiling takes a minute, and changes no result (test_survey)."""
+    with torch.compiler.set_stance("force_eager"):
+        yield
 
 
 def quiet(_label: str, _done: int, _total: int) -> None:
@@ -80,26 +89,91 @@ def test_imitation_learns(tmp_path: Path) -> None:
     assert found[-1]["loss"] < 0.5 * found[0]["loss"]
 
 
-def test_the_published_recipe_tries_other_actions_and_learns_from_them() -> None:
+def learner_of(**changes: Any) -> Any:
     pytest.importorskip("torchrl")
-    from tensordict import TensorDict
-
     from planner_ft.skills.ppo import Learner, PpoSettings
 
     torch.manual_seed(0)
-    learner = Learner(PpoSettings(minibatch=64, epochs=4))
+    return Learner(PpoSettings(**changes))
+
+
+def test_the_published_recipe_tries_other_actions_and_learns_from_them() -> None:
+    learner = learner_of(minibatch=64, epochs=4)
+    from planner_ft.skills.ppo import Batch
+
     seen = torch.rand(1, 1, 68).expand(8, 16, 68)
     with torch.no_grad():
-        batch = learner.actor(TensorDict({"observation": seen}, [8, 16]))
-    assert (batch["action"].flatten(0, 1).std(dim=0) > 0.3).all()
-    ends = torch.ones(8, 16, 1, dtype=torch.bool)
-    reward = batch["action"][..., :1].clone()
-    after = {"observation": seen, "reward": reward, "terminated": ends, "done": ends}
-    batch["next"] = TensorDict(after, [8, 16])
+        drawn, action = learner.draw(seen, torch.randn(8, 16, 2))
+    assert (action.flatten(0, 1).std(dim=0) > 0.3).all()
+    ends = torch.ones(8, 16, dtype=torch.bool)
+    batch = Batch(seen, drawn, seen, action[..., 0].clone(), ends, ends)
     before = learner.surveyor(seen[0, :1])[0, 0].detach()
     for _again in range(3):
-        learner.learn(batch.clone(), torch.Generator().manual_seed(0))
+        learner.learn(batch, torch.Generator().manual_seed(0))
     assert learner.surveyor(seen[0, :1])[0, 0] > before + 0.02
+
+
+def test_the_published_recipes_loss_and_advantages_are_torchrls() -> None:
+    learner = learner_of()
+    from tensordict import TensorDict
+    from tensordict.nn import TensorDictModule
+    from torchrl.modules import ProbabilisticActor, TanhNormal, ValueOperator
+    from torchrl.objectives import ClipPPOLoss
+    from torchrl.objectives.value import GAE
+
+    from planner_ft.skills.ppo import Batch
+
+    spread = TensorDictModule(learner.surveyor.spread, ["observation"], ["loc", "scale"])
+    how: dict[str, Any] = {"distribution_class": TanhNormal, "return_log_prob": True}
+    actor = ProbabilisticActor(spread, in_keys=["loc", "scale"], **how)
+    critic = ValueOperator(learner.critic, in_keys=["observation"])
+    settings = {"clip_epsilon": 0.2, "entropy_coeff": 5e-4, "normalize_advantage": True}
+    theirs = ClipPPOLoss(actor, critic, **settings)
+    seen, after = torch.rand(4, 16, 68), torch.rand(4, 16, 68)
+    reward, ends = torch.randn(4, 16), torch.rand(4, 16) < 0.2
+    with torch.no_grad():
+        drawn, action = learner.draw(seen, torch.randn(4, 16, 2))
+    done = ends | (torch.rand(4, 16) < 0.2)
+    batch = Batch(seen, drawn, after, reward, ends, done)
+    before, advantage, value = learner.judge(batch)
+    flags = {"reward": reward[..., None], "terminated": ends[..., None], "done": done[..., None]}
+    said = {"observation": seen, "action": action, "action_log_prob": before.view(4, 16)}
+    same = TensorDict({**said, "next": {"observation": after, **flags}}, [4, 16])
+    GAE(gamma=0.99, lmbda=0.9, value_network=critic)(same)
+    assert torch.allclose(same["advantage"].flatten(), advantage, atol=1e-5)
+    for module in learner.nets.parameters():
+        module.data += 0.04 * torch.randn_like(module)
+    flat = same.reshape(-1)
+    slope = 2 * (math.log(2) - drawn - torch.nn.functional.softplus(-2 * drawn)).sum(dim=-1)
+    flat["action_log_prob"] = before - slope.flatten()
+    torch.manual_seed(1)
+    noise = torch.normal(torch.zeros(1, 64, 2), torch.ones(1, 64, 2))[0]
+    known = seen.flatten(0, 1), drawn.flatten(0, 1), before, advantage, value, noise
+    torch.manual_seed(1)
+    parts = theirs(flat)
+    wanted = sum(part for name, part in parts.items() if name.startswith("loss_"))
+    assert float(parts["clip_fraction"]) > 0.05
+    assert float(learner.loss(*known).detach()) == pytest.approx(float(wanted.detach()), abs=1e-5)
+
+
+def test_the_published_recipe_ends_without_a_better_mean_reward(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("torchrl")
+    from planner_ft.skills import ppo
+
+    rewards = iter([1.0, 3.0, 2.0, 2.5, 2.9, 9.0])
+
+    def collect(*_given: Any) -> tuple[Any, list[str]]:
+        seen, flags = torch.zeros(4, 4, 68), torch.zeros(4, 4, dtype=torch.bool)
+        reward = torch.full((4, 4), next(rewards))
+        return ppo.Batch(seen, torch.zeros(4, 4, 2), seen, reward, flags, flags), []
+
+    monkeypatch.setattr(ppo, "collect", collect)
+    changes = {**TINY["published"], "iterations": 9, "patience": 3}
+    result = train_skill(SkillTraining("survey", tmp_path, "published", changes=changes), quiet)
+    assert result == {"iterations": 5, "best": 2, "reward": 3.0}
+    assert len(losses(tmp_path)) == 5
 
 
 @pytest.mark.parametrize(

@@ -1,364 +1,212 @@
-"""Prompts put together: movements, and the filters and perception skills that run in some or all of
-them, drawn for one task and said in the frames of frames.toml; and the plan that this means.
+"""Prompts put together from frames.jsonl: templates whose slots are filled with clauses of the
+phrase file, {M1} with a movement, {F1} with filters and {D1} with perception skills, in the form
+that the slot asks for (`ing`, `with`, `passive`, `each`).
 """
 
 from __future__ import annotations
 
 import functools
-import random
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Literal
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from random import Random
 
-from planner_ft.data.numbers import in_words, pick
-from planner_ft.data.task.clauses import lead_clause, pattern_clause, pattern_phrase, skill_clause
+from planner_ft.data.numbers import pick
+from planner_ft.data.task.clauses import WORDS, lead_clause, pattern_clause, skill_clause
 from planner_ft.data.task.context import Context
-from planner_ft.data.task.frames import TABLES, Scopes
 from planner_ft.data.task.phrasebook import parse_phrase
 from planner_ft.data.task.prompts.binding import Bound
-from planner_ft.data.task.prompts.draw import Drawing, twice
-from planner_ft.data.task.steps import Entry, Step, plan_step
-from planner_ft.data.templates.grammar import Nodes, Slot, all_slots, choose
-from planner_ft.data.templates.render import PIECE
+from planner_ft.data.task.prompts.shapes import SHAPES
+from planner_ft.data.templates.grammar import Call, Chosen, Node, Nodes, Part, Slot, Step, all_slots
+from planner_ft.data.templates.records import Template, read_templates
+from planner_ft.vocabulary.definition import Role
 
-EXTRA_MOVEMENTS = (0.56, 0.2, 0.13, 0.07, 0.04)
-"""How often a prompt has none, one, ... movements beside the main one."""
-AGAIN = 0.15
+ROLES: dict[str, Role] = {"D": "perception", "F": "filter"}
+SAID = ("with", "passive")
+"""Forms that not every skill has."""
+STEP = "step"
+"""A slot of the frames: the word for a movement that others are told apart from."""
+AGAIN = 0.08
 """Share of skills that stand a second time with other parameters."""
-LOCAL = 0.5
-"""Share of the skills of a single step that are said with its movement."""
 REPEATED = 0.08
 """Share of skills with an interval in the prompt, which no skill has as a parameter."""
-SHARES: dict[Literal["filter", "perception"], tuple[float, ...]] = {
-    "perception": (0.14, 0.36, 0.28, 0.15, 0.07),
-    "filter": (0.56, 0.34, 0.1),
-}
-PATTERNS: dict[str, dict[str, float]] = {
-    "goto": {"waypoints": 0.15, "home": 0.05},
-    "square": {"square": 0.85, "waypoints": 0.1},
-    "lawnmower": {"lawnmower": 0.85, "waypoints": 0.1},
-    "orbit": {"orbit": 0.35, "waypoints": 0.1},
-    "pass": {"pass": 0.5, "line": 0.35},
-    "line": {"line": 0.75, "pass": 0.1},
-    "sectors": {"sectors": 0.45, "headings": 0.25, "steps": 0.1},
-    "sweep": {"headings": 0.15, "steps": 0.15},
-    "follow": {"waypoints": 0.05},
-}
-"""How often a task of the pattern is drawn as each movement; else a skill that fits the task."""
-OTHER = ("waypoints", "square", "line", "pass", "headings", "steps", "orbit", "lawnmower")
-"""Movements that may stand beside the task's own."""
-
-Clause = Callable[[str], Bound]
-"""A clause in a form: "" (a command), "ing", "each", "with", "passive"."""
-Maker = Callable[[str], list[PIECE]]
-"""Words for a part of the prompt in a form."""
-
-
-class Misfit(Exception):
-    """A draw that came to nothing."""
-
-
-@dataclass
-class Movement:
-    """What moves or holds the vehicle; `clause` is None where the prompt does not ask for it."""
-
-    kind: str
-    clause: Clause | None
-    several: bool = False
-    """Whether it may have several steps."""
-    route: list[Step] = field(default_factory=list)
-
-
-@dataclass
-class Run:
-    """A skill, or words that ask for none (no name), beside the movements at these places."""
-
-    skill: str
-    clause: Clause
-    forms: frozenset[str]
-    steps: frozenset[int]
-
-
-class Prompt:
-    """One sample: what is said, and the plan. Raises Misfit when the draw came to nothing."""
-
-    def __init__(self, context: Context) -> None:
-        self.c, self.rng, self.book = context, context.rng, context.book
-        self.unseen = "_unseen" if self.book.unseen else ""
-        self.mentioned: list[tuple[Run, list[Entry], list[Entry]]] = []
-        lead = self._lead()
-        self.movements = self._movements(lead is not None)
-        self.runs = self._runs(lead)
-        asked = self.movements[0].clause or "perception" in map(self._role, self.runs)
-        if not asked:
-            raise Misfit
-        self.frame, self.pieces = self._said()
-        self.plan = self._plan()
-        steps = self.plan["skill_sequence"]
-        if any(twice(step[f"{role}_skills"]) for step in steps for role in SHARES):
-            raise Misfit
-
-    # ------------------------------------------------------------ what is asked for
-
-    def _lead(self) -> Clause | None:
-        entry, title = self.c.entry, self.c.task.title
-        if not entry.lead or self.rng.random() < 0.2:
-            return None
-        for place, name in entry.links.items():
-            if place.startswith("lead."):
-                self.c.require(name)
-        phrase = pick(entry.lead, self.rng)
-        return lambda form: lead_clause(self.book, title, phrase, form == "ing")
-
-    def _movements(self, lead: bool) -> list[Movement]:
-        rng, hold, task = self.rng, self.book.motions.get("hold"), self.c.task
-        still = 0.35 if task.arrival == "none" and task.pattern == "hold" else 0.02
-        if hold and rng.random() < (0.55 if lead else still):
-            return [Movement("implied", None, route=[(hold, {})])]
-        movements = [self._skill(hold) if hold and lead and rng.random() < 0.7 else self._main()]
-        for _ in range(_count(rng, EXTRA_MOVEMENTS)):
-            if extra := self._extra():
-                movements.insert(int(rng.random() * (len(movements) + 1)), extra)
-        home = self._pattern("home") if rng.random() < 0.03 else None
-        return [*movements, home] if home else movements
-
-    def _main(self) -> Movement:
-        roll, task = self.rng.random(), self.c.task
-        for pattern, share in PATTERNS.get(task.pattern, {}).items():
-            if roll < share and (found := self._pattern(pattern)):
-                return found
-            roll -= share
-        names = task.skills["navigation"]
-        return self._skill(names[int(self.rng.random() ** 1.8 * len(names))])
-
-    def _extra(self) -> Movement | None:
-        roll, motions = self.rng.random(), self.book.motions
-        if roll < 0.06:
-            return self._pattern(pick(OTHER, self.rng))
-        if roll < 0.35 and "goto" in motions:
-            return self._skill(motions["goto"])
-        known = self.c.task.skills if roll < 0.65 else self.book.roles
-        return self._skill(pick(known["navigation"], self.rng))
-
-    def _pattern(self, name: str) -> Movement | None:
-        title = self.c.task.title
-        phrase, plan = pattern_phrase(self.book, title, name, self.rng)
-        if not phrase or not pattern_clause(self.book, title, name, phrase, plan, False):
-            return None
-
-        def clause(form: str) -> Bound:
-            bound = pattern_clause(self.book, title, name, phrase, plan, form == "ing")
-            if bound is None:
-                raise Misfit
-            return bound
-
-        return Movement(name, clause, True)
-
-    def _skill(self, name: str) -> Movement:
-        motion = self.book.skills[name].skill.motion
-        return Movement(motion or name, functools.partial(self._clause, name))
-
-    def _clause(self, name: str, form: str) -> Bound:
-        """A phrase for the skill in this form, at times one of the task's own."""
-        entry, task = self.book.skills[name], self.c.entry
-        phrases: Sequence[str] = entry.phrases.get(form) or entry.phrases[""]
-        own: Sequence[str] = task.phrases if name == task.phrases_for else []
-        if entry.skill.motion == "goto":
-            own = self.book.pattern("goto", self.c.task.title)
-        if own and self.rng.random() < 0.6:
-            phrases = own
-        return skill_clause(self.book, name, pick(phrases, self.rng), form == "ing")
-
-    def _runs(self, lead: Clause | None) -> list[Run]:
-        every, rng = frozenset(range(len(self.movements))), self.rng
-        skill = self.c.entry.lead_skill.get("skill", "")
-        runs = [Run(skill, lead, frozenset(), every)] if lead else []
-        for role, shares in SHARES.items():
-            skills, fitting = self.book.roles[role], self.c.task.skills.get(role, ())
-            count = _count(rng, shares)
-            names = [
-                pick(fitting if fitting and rng.random() < 0.85 else skills, rng)
-                for _ in range(count if skills else 0)
-            ]
-            for name in dict.fromkeys(names):  # Mostly those that fit the task.
-                entry, steps = self.book.skills[name], _steps(len(every), rng)
-                forms = frozenset(form for form in ("with", "passive") if entry.phrases[form])
-                run = Run(name, functools.partial(self._clause, name), forms, steps)
-                runs.append(run)
-                others = every - steps or every
-                share = AGAIN if others != every else AGAIN / 2 if role == "perception" else 0
-                if entry.several and rng.random() < share:
-                    runs.append(Run(name, run.clause, forms, others))
-        return runs
-
-    def _role(self, run: Run) -> str:
-        return self.book.skills[run.skill].skill.role if run.skill else "perception"
-
-    # ------------------------------------------------------------ how it is said
-
-    def _said(self) -> tuple[str, list[PIECE]]:
-        """The name of the frames, and the pieces of the prompt."""
-        movement, *others = self.movements
-        if others:
-            return "several", self._several()
-        name = "one" if movement.clause else "no_movement"
-        table, data = name + self.unseen, self.runs
-        filters = [run for run in data if self._role(run) == "filter"]
-        if not filters or self.rng.random() < 0.3:
-            return name, self._movement(table, movement, data)
-        data = [run for run in data if run not in filters]
-        if not data and not movement.clause:
-            return name, self._movement(table, movement, filters)
-        makers: dict[str, Maker] = {
-            "core": lambda _form: self._movement(table, movement, data),
-            "filters": functools.partial(self._calls, filters),
-        }
-        return name, self._say("filters", {"core", *_forms("filters", filters)}, makers)
-
-    def _say(self, table: str, given: set[str], makers: Mapping[str, Maker]) -> list[PIECE]:
-        """A frame of the table that says exactly what is given."""
-        return self._frame(pick(_frames(table, frozenset(given)), self.rng), makers)
-
-    def _frame(self, nodes: Nodes, makers: Mapping[str, Maker]) -> list[PIECE]:
-        pieces: list[PIECE] = []
-        for part in choose(nodes, self.rng, []):
-            if isinstance(part, Slot):
-                pieces += makers[part.base]("".join(part.options))
-            else:
-                pieces.append((part, False))
-        return pieces
-
-    def _movement(self, table: str, movement: Movement, data: Sequence[Run]) -> list[PIECE]:
-        """A movement with what runs beside it."""
-        given = _forms("data", data)
-        makers: dict[str, Maker] = {"data": functools.partial(self._calls, data)}
-        if movement.clause:
-            given |= {"move", "move ing"}
-            makers["move"] = functools.partial(self._move, movement)
-        return self._say(table, given, makers)
-
-    def _move(self, movement: Movement, form: str) -> list[PIECE]:
-        if movement.clause is None:
-            raise Misfit
-        drawing = Drawing(movement.clause(form), self.c)
-        try:
-            movement.route = drawing.plan.route()
-        except ValueError:
-            raise Misfit from None
-        return drawing.pieces()
-
-    def _calls(self, runs: Sequence[Run], form: str) -> list[PIECE]:
-        """Several skills in a form: "record the sonar, log the depth and take a fix"."""
-        last = ". " if form == "each" else pick((" and ", " and ", ", and "), self.rng)
-        pieces: list[PIECE] = []
-        for place, run in enumerate(runs):
-            if place:
-                joint = ", " if form != "each" and place < len(runs) - 1 else last
-                pieces.append((joint, False))
-            pieces += self._call(run, form)
-        return pieces
-
-    def _call(self, run: Run, form: str) -> list[PIECE]:
-        drawing = Drawing(run.clause(form), self.c)
-        step = drawing.bound.everywhere
-        filters, perceptions = drawing.plan.beside(step) if step else ([], [])
-        pieces = drawing.pieces()
-        repeat = self.book.sentences.get("repeat")
-        repeats = run.skill and self.book.skills[run.skill].repeats
-        if repeat and repeats and self.rng.random() < REPEATED:
-            pieces += [(" ", False), (self.c.say(pick(repeat, self.rng)), False)]
-        self.mentioned.append((run, filters, perceptions))
-        return pieces
-
-    def _several(self) -> list[PIECE]:
-        movements, later = self.movements, []
-        local: list[list[Run]] = [[] for _ in movements]
-        for run in self.runs:
-            if len(run.steps) == 1 and self.rng.random() < LOCAL:
-                local[min(run.steps)].append(run)
-            else:
-                later.append(run)
-        first, middle, last = pick(TABLES[f"several{self.unseen}"], self.rng)
-        part = "part" if any(one.several for one in movements) else "step"
-        scopes = Scopes(len(movements), part, self.rng, numbered="{n}" in first)
-        marked = any(local) or any(len(run.steps) < len(movements) for run in later)
-        pieces: list[PIECE] = []
-        if later and not scopes.numbered and self.rng.random() < 0.15:
-            pieces = [*self._scoped(later[:1], scopes, marked), (". ", False)]
-            later = later[1:]
-        for place, text in enumerate((first, *[middle] * (len(movements) - 2), last)):
-            number, nth = place + 1, scopes.nth([place])
-            makers: dict[str, Maker] = {
-                "clause": functools.partial(self._part, movements[place], local[place]),
-                "n": _constant(str(number)),
-                "nth": _constant(nth),
-                "number": _constant(in_words(number)),
-            }
-            pieces += self._frame(parse_phrase(text), makers)
-        for steps in dict.fromkeys(run.steps for run in later):
-            pieces.append((". ", False))
-            pieces += self._scoped([run for run in later if run.steps == steps], scopes, marked)
-        return pieces
-
-    def _part(self, movement: Movement, data: Sequence[Run], form: str) -> list[PIECE]:
-        return self._movement(f"clause_{form}" if form else "clause", movement, data)
-
-    def _scoped(self, runs: Sequence[Run], scopes: Scopes, marked: bool) -> list[PIECE]:
-        """What runs in the same steps; `marked`: one that runs everywhere needs words for it."""
-        makers: dict[str, Maker] = {"data": functools.partial(self._calls, runs)}
-        given = _forms("data", runs)
-        if not marked and self.rng.random() < 0.5:
-            return self._say("everywhere", given, makers)
-        makers["where"] = _constant(scopes.words(runs[0].steps))
-        return self._say("scope", {*given, "where"}, makers)
-
-    # ------------------------------------------------------------ what it means
-
-    def _plan(self) -> dict[str, Any]:
-        """The plan; within a step, filters and perception skills stand in the order of mention."""
-        steps = []
-        for place, movement in enumerate(self.movements):
-            beside = [found for run, *found in self.mentioned if place in run.steps]
-            filters, perceptions = ([one for found in beside for one in found[i]] for i in (0, 1))
-            steps += [
-                plan_step(name, parameters, filters, perceptions, self.book.vocabulary)
-                for name, parameters in movement.route
-            ]
-        return {"skill_sequence": steps}
-
-
-def _count(rng: random.Random, shares: Sequence[float]) -> int:
-    return rng.choices(range(len(shares)), shares)[0]
-
-
-def _constant(text: str) -> Maker:
-    return lambda _form: [(text, False)]
-
-
-def _steps(count: int, rng: random.Random) -> frozenset[int]:
-    """The movements beside which a skill runs: all, one, all but one, or any two."""
-    every, one, roll = frozenset(range(count)), frozenset({int(rng.random() * count)}), rng.random()
-    if count == 1 or roll < 0.33:
-        return every
-    if roll < 0.8 or count == 2:
-        return one
-    return every - one if roll < 0.9 else one | {int(rng.random() * count)}
-
-
-def _forms(group: str, runs: Sequence[Run]) -> set[str]:
-    """The slots in which these skills can be said."""
-    forms = frozenset.intersection(*(run.forms for run in runs)) if runs else ()
-    return {group, *(f"{group} {form}" for form in ("ing", "each", *forms))} if runs else set()
+PAUSE = 0.45
+"""Share of the sectors with a pause at each."""
 
 
 @functools.cache
-def _frames(table: str, given: frozenset[str]) -> list[Nodes]:
-    """The frames that have exactly the groups of what is given, each in a given form."""
-    groups = {name.partition(" ")[0] for name in given}
-    frames = [parse_phrase(frame) for frame in TABLES[table]]
-    slots = [{" ".join([slot.key, *slot.options]) for slot in all_slots(one)} for one in frames]
-    return [
-        frame
-        for frame, names in zip(frames, slots, strict=True)
-        if names <= given and {name.partition(" ")[0] for name in names} == groups
-    ]
+def frames(*, unseen: bool) -> dict[int, list[Template]]:
+    """The frames, of the unseen families or of the others, by the number of their movements."""
+    found: dict[int, list[Template]] = {}
+    for frame in read_templates(Path(__file__).with_name("frames.jsonl"), "prompts"):
+        if (frame.split == "test") == unseen:
+            moves = {slot.key for slot in all_slots(frame.nodes) if slot.base == "M"}
+            found.setdefault(len(moves), []).append(frame)
+    return found
+
+
+def composed(context: Context) -> tuple[str, Bound] | None:
+    """The family and the template of a prompt for a task; None for a draw that comes to nothing."""
+    rng, book = context.rng, context.book
+    filler = _Filler(context)
+    frame = pick(frames(unseen=book.unseen)[filler.movements()], rng)
+    chosen = Chosen(frame.nodes, rng)
+    if not filler.fill(chosen.slots):
+        return None
+    nodes = itertools.chain(*(filler.nodes(part) for part in chosen.parts))
+    bound = Bound(frame, nodes=tuple(nodes), clause=True)
+    for clause in itertools.chain(*filler.clauses.values()):
+        bound.add(clause)
+    bound.steps = [step for pattern in frame.steps for step in filler.steps(pattern)]
+    name = frame.id.rpartition("-")[0].removeprefix("unseen_")
+    return f"{name}/{filler.kind}{max(filler.moves, 1)}", bound
+
+
+def _count(shares: Sequence[float], rng: Random) -> int:
+    """How many, from 1 on, where each has its share."""
+    return 1 + rng.choices(range(len(shares)), shares)[0]
+
+
+class _Filler:
+    """The clauses that fill the slots of one frame; `kind` names its first movement."""
+
+    def __init__(self, context: Context) -> None:
+        self.context, self.rng, self.book = context, context.rng, context.book
+        self.task, self.entry = context.task, context.entry
+        self.clauses: dict[str, list[Bound]] = {}
+        self.kind, self.moves, self.number = "implied", 0, 0
+        self.used: set[str] = set()
+        lead = self.entry.lead if self.rng.random() < 0.8 else []
+        self.lead = pick(lead, self.rng) if lead else ""
+
+    def movements(self) -> int:
+        """How many movements the prompt asks for; without any, the vehicle holds its place."""
+        still = 0.35 if self.task.arrival == "none" and self.task.pattern == "hold" else 0.02
+        hold = "hold" in self.book.motions and self.rng.random() < (0.55 if self.lead else still)
+        return 0 if hold else _count(WORDS["often"]["movements"], self.rng)
+
+    def fill(self, slots: Sequence[Slot]) -> bool:
+        """Draw the clauses of all slots; whether there are some for each."""
+        moves = [slot.key for slot in slots if slot.base == "M"]
+        self.moves, main = len(moves), pick(moves, self.rng) if moves else ""
+        for slot in slots:
+            form = "".join(slot.options)
+            if slot.base == "M":
+                kind, clause = self._movement(form, main=slot.key == main)
+                self.kind = kind if slot.key == moves[0] else self.kind
+                self.clauses[slot.key] = [clause]
+            elif slot.base in ROLES:
+                self.clauses[slot.key] = list(self._group(slot.base, form))
+        return all(self.clauses.values())
+
+    def nodes(self, part: Part) -> Iterator[Node]:
+        """What stands in the prompt for a part of the frame."""
+        if isinstance(part, str):
+            yield part
+        elif part.key == STEP:
+            steps = (step for key in self.clauses if key[0] == "M" for step in self._of(key))
+            counted = list(steps)
+            long = any(step.each or step.call.name in SHAPES for step in counted)
+            yield "part" if long or len(counted) > self.moves else "step"
+        else:
+            clauses, each = self.clauses[part.key], "each" in part.options
+            last = ". " if each else pick((" and ", " and ", ", and "), self.rng)
+            for place, clause in enumerate(clauses):
+                if place:
+                    yield last if each or place == len(clauses) - 1 else ", "
+                yield from clause.nodes
+                if part.base != "M":
+                    yield from self._repeated(clause)
+
+    def steps(self, frame: Step) -> Iterator[Step]:
+        """The steps that a step of the frame stands for."""
+        filters, perceptions = (
+            tuple(step.call for call in calls for step in self._of(call.name))
+            for calls in (frame.filters, frame.perceptions)
+        )
+        for step in self._of(frame.call.name) or [Step(Call(self.book.motions["hold"]))]:
+            beside = replace(step, filters=filters, perceptions=perceptions)
+            each = step.each and replace(step.each, filters=filters, perceptions=perceptions)
+            yield replace(beside, each=each)
+
+    def _of(self, key: str) -> list[Step]:
+        return [step for clause in self.clauses.get(key, ()) for step in clause.steps]
+
+    def _movement(self, form: str, *, main: bool) -> tuple[str, Bound]:
+        """A movement with its kind: the task's own, mostly, if `main`."""
+        rng, motions, names = self.rng, self.book.motions, self.task.skills["navigation"]
+        patterns, roll = WORDS["patterns"].get(self.task.pattern, {}), rng.random()
+        if main and self.lead and "hold" in motions and rng.random() < 0.7:
+            return self._skill(motions["hold"], form)
+        for pattern, share in (patterns if main else {pick(WORDS["beside"], rng): 0.06}).items():
+            if 0 <= roll < share and (found := self._pattern(pattern, form)):
+                return pattern, found
+            roll -= share
+        if main:
+            return self._skill(names[int(rng.random() ** 1.8 * len(names))], form)
+        if roll < 0.29 and "goto" in motions:
+            return self._skill(motions["goto"], form)
+        return self._skill(pick(names if roll < 0.59 else self.book.roles["navigation"], rng), form)
+
+    def _pattern(self, name: str, form: str) -> Bound | None:
+        phrases, title = self.book.pattern(name, self.task.title), self.task.title
+        phrase = pick(phrases, self.rng) if phrases else ""
+        pause = self.book.patterns.get(name, {}).get("pause")
+        if pause and self.rng.random() < PAUSE:
+            phrase += pick(pause, self.rng)
+        ing, number = form == "ing", self._next()
+        return pattern_clause(self.book, title, name, phrase, ing, number) if phrase else None
+
+    def _skill(self, name: str, form: str) -> tuple[str, Bound]:
+        """A phrase for the skill in this form, at times one of the task's own."""
+        entry, task = self.book.skills[name], self.entry
+        phrases: Sequence[str] = entry.phrases.get(form) or entry.phrases[""]
+        own: Sequence[str] = task.phrases if name == task.phrases_for else []
+        if entry.skill.motion == "goto":
+            own = self.book.pattern("goto", self.task.title)
+        if own and self.rng.random() < 0.6:
+            phrases = own
+        phrase, ing = pick(phrases, self.rng), form == "ing"
+        clause = skill_clause(self.book, name, phrase, ing, self._next())
+        return entry.skill.motion or name, clause
+
+    def _group(self, base: str, form: str) -> Iterator[Bound]:
+        """Skills of a role, mostly those that fit the task; its own words come first."""
+        rng, book = self.rng, self.book
+        count = _count(WORDS["often"][base + ("_alone" if self.moves < 2 else "")], rng)
+        if self.lead and base == "D" and form not in SAID:
+            for place, name in self.entry.links.items():
+                if place.startswith("lead."):
+                    self.context.require(name)
+            yield lead_clause(book, self.task.title, self.lead, form == "ing")
+            self.lead, count = "", count - 1
+        every, fitting = (
+            [
+                name
+                for name in names
+                if (form not in SAID or book.skills[name].phrases[form])
+                and (name not in self.used or book.skills[name].several)
+            ]
+            for names in (book.roles[ROLES[base]], self.task.skills.get(ROLES[base], ()))
+        )
+        drawn = [
+            pick(fitting if fitting and rng.random() < 0.85 else every, rng)
+            for _ in range(count if every else 0)
+        ]
+        names = list(dict.fromkeys(drawn))
+        again = (name for name in names if base == "D" and book.skills[name].several)
+        names += [name for name in list(again) if rng.random() < AGAIN]
+        self.used.update(names)
+        yield from (self._skill(name, form)[1] for name in names)
+
+    def _repeated(self, clause: Bound) -> Nodes:
+        repeat = self.book.sentences.get("repeat")
+        repeats = any(self.book.skills[step.call.name].repeats for step in clause.steps)
+        if not (repeat and repeats and self.rng.random() < REPEATED):
+            return ()
+        return (" ", *parse_phrase(pick(repeat, self.rng)))
+
+    def _next(self) -> int:
+        self.number += 1
+        return self.number - 1

@@ -19,14 +19,14 @@ from typing import Any, Literal, get_args
 
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.compose import Misfit, Prompt
+from planner_ft.data.task.compose import composed
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.frames import aside, opened
 from planner_ft.data.task.phrasebook import phrasebook
 from planner_ft.data.task.prompts.binding import binding, titles
 from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.templates.records import templates
-from planner_ft.data.templates.render import joined, plain, skeleton
+from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters, plan_problems, step_skills
@@ -103,8 +103,7 @@ class _Draws:
         if bound is None:
             return None
         context = Context(self.book, self.book.vocabulary.task[title], self.rng)
-        drawn = draw_template(bound, context)
-        if drawn is None:
+        if (drawn := draw_template(bound, context)) is None:
             return None
         family = f"template/{len(drawn[1]['skill_sequence'])}"
         return self._record(family, context, *drawn, ("train", self.split))
@@ -112,15 +111,11 @@ class _Draws:
     def composed(self) -> dict[str, Any] | None:
         """One record without id that was put together."""
         context = Context(self.book, pick(self.book.vocabulary.tasks, self.rng), self.rng)
-        try:
-            prompt = Prompt(context)
-        except Misfit:
+        if (found := composed(context)) is None or not (drawn := draw_template(found[1], context)):
             return None
-        family = f"{prompt.frame}/{prompt.movements[0].kind}{len(prompt.movements)}"
-        family = f"unseen-{family}" if self.unseen else family
-        said = joined(opened(prompt.pieces, context))
-        skills = {run.skill for run in prompt.runs}
-        return self._record(family, context, said, prompt.plan, skills, (self.split,))
+        family = f"unseen-{found[0]}" if self.unseen else found[0]
+        text, plan, skills = drawn
+        return self._record(family, context, opened(text, context), plan, skills, (self.split,))
 
     def _record(
         self,

@@ -86,15 +86,6 @@ class Plan:
             for entry in self._expand(step, common)
         ]
 
-    def route(self) -> list[Step]:
-        """The movements alone. Raises ValueError when lanes do not fill."""
-        return [
-            move
-            for step in self.bound.steps
-            for one in self._moves(step.call)
-            for move in [one, *(self._moves(step.each.call) if step.each else ())]
-        ]
-
     def _expand(self, step: Pattern, common: Beside) -> list[Entry]:
         entries: list[Entry] = []
         moves = self._moves(step.call)
@@ -127,8 +118,8 @@ class Plan:
         shape = SHAPES.get(call.name)
         if shape is None:
             return [(call.name, self._parameters(call))]
-        values = {argument.name: self._value(argument) for argument in call.arguments}
-        values = {name: value for name, value in values.items() if value is not None}
+        said = ((argument.name, self._value(argument)) for argument in call.arguments)
+        values = {name: value for name, value in said if value is not None}
         name = self.book.motions[shape.motion]
         try:
             found = shape.expand({**values, "home": self.vocabulary.home})

@@ -9,7 +9,9 @@ list), `quote` (said in quotation marks).
 from __future__ import annotations
 
 import random
+import tomllib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from planner_ft.data.numbers import Value, pick, polygon, position, say_number
@@ -19,27 +21,7 @@ from planner_ft.vocabulary.definition import Parameter
 
 Draw = Callable[[random.Random], Value]
 
-UNITS: dict[str, tuple[str | None, tuple[float, float]]] = {
-    "m": ("length", (1, 60)),
-    "s": ("duration", (5, 900)),
-    "deg": ("angle", (5, 180)),
-    "degC": ("temperature", (20, 120)),
-    "%": ("percent", (10, 60)),
-    "m/s": ("speed", (0.5, 5)),
-}
-"""How a number of the unit is said, and its range where nothing else is stated."""
-ROUND_SECONDS = (5, 8, 10, 12, 15, 20, 25, 30, 40, 45, 50, 60, 75, 80, 90, 100, 110)
-MINUTES = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 45)
-ODD_SECONDS = (90, 150, 210, 270, 3600, 5400, 7200, 10800, 200, 250, 400, 500)
-_BOX = ((0, 0), (1, 0), (1, 1), (0, 1))
-OUTLINES: tuple[tuple[tuple[float, float], ...], ...] = (
-    *(_BOX, _BOX, _BOX, _BOX, _BOX, _BOX, ((0, 0), (0, 1), (1, 1), (1, 0))),
-    *(((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 0), (0, 1))),
-    ((0, 0), (1, 0), (1, 1), (0.5, 1.2), (0, 1)),
-    ((0, 0), (1, 0), (1.5, 0.5), (1, 1), (0, 1), (-0.5, 0.5)),
-    ((0, 0), (1, -0.1), (1.3, 0.6), (0.3, 1.1)),
-)
-"""Areas by their corners, for a width and a height of one."""
+TABLE: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 SPAN = 220
 """Metres from home within which most positions lie."""
 
@@ -68,7 +50,7 @@ def number_space(parameter: Parameter, config: dict[str, Any]) -> Draw:
     the phrase file, else they follow from name, unit and range.
     """
     least, most = parameter.minimum, parameter.maximum
-    sense, (low, high) = UNITS.get(parameter.unit or "", (None, (1, 20)))
+    sense, low, high = TABLE["units"].get(parameter.unit or "", (None, 1, 20))
     if parameter.unit == "deg" and parameter.name in ("heading", "bearing", "yaw", "course"):
         sense = "bearing"
     elif parameter.unit == "deg" and least is not None and least < 0:
@@ -116,14 +98,10 @@ def draw_number(rng: random.Random, low: float, high: float, *, whole: bool = Fa
 
 def draw_duration(rng: random.Random, low: float, high: float) -> int:
     """Seconds: round seconds, minutes, hours within the range."""
+    tables, weights = list(TABLE["seconds"].values()), (0.48, 0.43, 0.09)
     for _ in range(8):
-        roll = rng.random()
-        if roll < 0.45:
-            number = pick(ROUND_SECONDS, rng)
-        elif roll < 0.85:
-            number = 60 * pick(MINUTES, rng)
-        else:
-            number = pick(ODD_SECONDS, rng) if roll < 0.93 else rng.randrange(3, 1000)
+        number = pick(rng.choices(tables, weights)[0], rng)
+        number = number if rng.random() < 0.93 else rng.randrange(3, 1000)
         if low <= number <= high:
             return int(number)
     return round(low + (high - low) * rng.random())
@@ -142,9 +120,9 @@ def draw_bearing(rng: random.Random) -> float:
 
 def draw_rotation(rng: random.Random, high: float) -> float:
     """A signed angle up to `high` degrees, never zero."""
-    roll = rng.random()
+    roll, size = rng.random(), 0.0
     if high >= 360 and roll < 0.3:
-        size: float = pick((360, 180, 90, 270, 360, 180), rng)
+        size = pick((360, 180, 90, 270, 360, 180), rng)
     elif roll < 0.7:
         size = 5 * rng.randrange(1, max(2, int(high // 5) + 1))
     else:
@@ -174,5 +152,5 @@ def draw_polygon(rng: random.Random) -> list[Point]:
     x, y = (0, 0) if rng.random() < 0.1 else (10 * rng.randrange(-15, 10) for _ in range(2))
     width = 10 * rng.randrange(2, 30)
     height = width if rng.random() < 0.15 else 10 * rng.randrange(2, 30)
-    outline = pick(OUTLINES, rng)
+    outline = pick(TABLE["outlines"], rng)
     return [point(x + round(width * dx), y + round(height * dy)) for dx, dy in outline]

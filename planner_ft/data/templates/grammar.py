@@ -218,8 +218,8 @@ class Argument:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A task, skill or shape with its arguments. `label`: only where that alternative was chosen;
-    `at`: only at the "first" or "last" waypoint of a shape.
+    """A task, skill or shape with its arguments. `label`: only where that alternative, or one with
+    the slot of this name, was chosen; `at`: only at the "first" or "last" waypoint of a shape.
     """
 
     name: str

@@ -81,8 +81,11 @@ class Template:
 
     def check_labels(self, steps: str) -> None:
         """Raise TemplateError for a label that text or plan (called `steps`) have alone."""
+        slots = list(all_slots(self.nodes))
         asked = {call.label for step in self.steps for call in step.calls() if call.label}
-        for name in asked ^ {slot.key for slot in all_slots(self.nodes) if slot.sign == "?"}:
+        labels = {slot.key for slot in slots if slot.sign == "?"}
+        said = {slot.key for slot in slots if not slot.sign}
+        for name in (asked - said - labels) | (labels - asked):
             raise TemplateError(f"the label ?{name} stands only in the text or only in the {steps}")
 
     @property

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from planner_ft.decoding.constraints import RELEASED, Mask
-from planner_ft.decoding.constraints.grammar import Script
+from planner_ft.decoding.constraints.grammar import Script, name_of
 from planner_ft.decoding.constraints.tokens import Tokens, allows
-from planner_ft.vocabulary import Task
 
 if TYPE_CHECKING:
     from llguidance import LLMatcher
@@ -26,9 +25,9 @@ class Answer:
     """An answer that follows a script and ends within `limit` tokens.
 
     The last `reserve` of them are for closing what is open: texts end, lists and objects close as
-    soon as the grammar lets them, and what must follow is written with as few tokens as there can
-    be; `cut` says so. `without_facts` is the same script without the facts of the input: a part of
-    the answer is released to it where the model finds no value with evidence likely.
+    soon as the grammar lets them; `cut` says so. `without_facts` is the same script without the
+    facts of the input: a part of the answer is released to it where the model finds no value with
+    evidence likely.
     """
 
     def __init__(
@@ -73,7 +72,7 @@ class Answer:
         if not self._hurried:
             growing = self._tokens.growing(self._ids, self._matcher)
             return self._tokens.mask_of(tuple(growing)) if growing else self._mask
-        narrowed = self._closing(self._mask, bytes(self._matcher.compute_ff_bytes()))
+        narrowed = self._closing(self._mask)
         self.cut = self.cut or not np.array_equal(narrowed, self._mask)
         return narrowed
 
@@ -97,7 +96,7 @@ class Answer:
             return False
         self._matcher, chosen = self._loose.deep_copy(), self._script.chosen
         if chosen is not None:
-            self._released[chosen.title if isinstance(chosen, Task) else chosen.name] = None
+            self._released[name_of(chosen)] = None
         return True
 
     def accept(self, token: int) -> None:
@@ -150,10 +149,8 @@ class Answer:
         """Whether the answer stands within a text."""
         return len(QUOTE.findall(self._tokens.text_of(self._ids))) % 2 == 1
 
-    def _closing(self, mask: Mask, must_follow: bytes) -> Mask:
-        """The part of a mask that leads to the end: what must follow, else a sign that closes."""
-        if must_follow:
-            return self._tokens.mask_of((self._tokens.shortest(must_follow)[0],))
+    def _closing(self, mask: Mask) -> Mask:
+        """The part of a mask that leads to the end: a sign that closes, if there is one."""
         for sign in '"' if self._inside else "]},":
             token = self._tokens.byte[sign]
             if token is not None and allows(mask, token):

@@ -8,13 +8,7 @@ from typing import Any
 
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints.answer import Answer
-from planner_ft.decoding.constraints.grammar import (
-    SKILL_OPENS,
-    TASK_OPENS,
-    Values,
-    key,
-    mission_opens,
-)
+from planner_ft.decoding.constraints.grammar import SKILL_OPENS, Values, key, mission_opens, name_of
 from planner_ft.decoding.constraints.grounded import GroundedValues
 from planner_ft.decoding.constraints.patterns import DECIMALS, WHOLE_DIGITS
 from planner_ft.decoding.constraints.spans import LONGEST_WORD
@@ -75,7 +69,7 @@ class Factory:
     @functools.cached_property
     def least_tokens(self) -> int:
         """The smallest limit within which every answer ends."""
-        return least_limit(self.level, self.vocabulary, self.tokens)
+        return least_limit(self.level, self.vocabulary)
 
     def start(
         self, record: dict[str, Any], limit: int | None = None, most: int | None = None
@@ -133,41 +127,40 @@ class Factory:
 
     @functools.cached_property
     def _reserve(self) -> int:
-        return reserve(self.level, self.vocabulary, self.tokens)
+        return reserve(self.level, self.vocabulary)
 
 
 # ---------------------------------------------------------------- how an answer is closed
 
 # A grammar bounds every list and text, but the sum of the bounds is far above any limit, so the last
-# tokens of the limit are kept for closing what is open. A text that must follow takes at most
-# `most_spelt` tokens wherever it was begun; where there is a choice, no token is shorter than a byte.
+# tokens of the limit are kept for closing what is open. No token is shorter than a byte.
 
 
-def reserve(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
-    """Tokens that close a plan from wherever it stands: the task or step that was begun."""
-    spelt = tokens.most_spelt
-    if level == "mission":
-        begun = max(_owner(task.title, task, tokens) for task in vocabulary.tasks)
-        lists = sum(spelt(f",{key(name)}[") + 1 for name in MISSION_KEYS[1:])
-        prompt = spelt("," + TASK_OPENS) + spelt("}," + key("task_prompt") + '"')
-        return begun + prompt + lists + 6 + LONGEST_WORD
-    begun = max(_owner(skill.name, skill, tokens) for skill in vocabulary.skills)
-    lists = sum(spelt("}," + key(name) + "[") + 2 for name in STEP_KEYS[1:])
-    return begun + lists + spelt(",{" + key(STEP_KEYS[0]) + SKILL_OPENS) + 4 + LONGEST_WORD
+def reserve(level: Level, vocabulary: Vocabulary) -> int:
+    """Tokens that close a plan from wherever it stands: the longest task or skill, begun where
+    another one ends, and what stands behind it.
+    """
+    mission = level == "mission"
+    owners = vocabulary.tasks if mission else vocabulary.skills
+    lists: dict[str, list[Any]] = {
+        name: [] for name in (MISSION_KEYS[1:] if mission else STEP_KEYS)
+    }
+    rest = compact_json([lists, {"task_prompt": ""}])
+    return max(map(_most_bytes, owners)) + len(rest) + LONGEST_WORD + 8
 
 
-def least_limit(level: Level, vocabulary: Vocabulary, tokens: Tokens) -> int:
+def least_limit(level: Level, vocabulary: Vocabulary) -> int:
     """The smallest limit within which every answer ends, its beginning and end token included."""
     opens = mission_opens() if level == "mission" else "{" + key("skill_sequence") + "["
-    return reserve(level, vocabulary, tokens) + tokens.most_spelt(opens) + 1
+    return reserve(level, vocabulary) + len(opens) + 1
 
 
-def _owner(name: str, owner: Task | Skill, tokens: Tokens) -> int:
-    """Tokens of a name and the parameters that must be written, or the one that was begun."""
+def _most_bytes(owner: Task | Skill) -> int:
+    """Bytes of a name and the parameters that must be written, or the one that was begun."""
     sizes = [
-        tokens.most_spelt("," + key(item.name)) + _BYTES.get(item.type, LONGEST_WORD + 2)
+        len(f",{key(item.name)}".encode()) + _BYTES.get(item.type, LONGEST_WORD)
         for item in owner.parameters
     ]
     needed = bool(owner.require_any) or any(item.required for item in owner.parameters)
-    opens = len(compact_json(name).encode()) + tokens.most_spelt(f'",{key("parameters")}{{')
+    opens = len(compact_json({"name": name_of(owner), "parameters": {}}).encode())
     return opens + (sum(sizes) if needed else max(sizes, default=0))

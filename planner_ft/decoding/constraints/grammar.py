@@ -100,12 +100,10 @@ class Values:
     ) -> str | None:
         """The symbol of a parameter's number, none of `without`."""
         whole, low, high = parameter.type == "integer", parameter.minimum, parameter.maximum
-        barred = [literal(written_number(number)) for number in without]
-        if low is None or high is None:
-            pattern = patterns.ANY_INTEGER if whole else patterns.ANY_NUMBER
-        else:
-            pattern = patterns.number_range(low, high, whole=whole)
-            barred.append(regex(patterns.CLOSING_ZEROS))
+        pattern, beyond = patterns.any_number(whole=whole), list[str]()
+        if low is not None and high is not None:
+            pattern, beyond = patterns.number_range(low, high, whole=whole)
+        barred = (*map(regex, beyond), *map(literal, map(written_number, without)))
         return grammar.terminal(f"{regex(pattern)}{none_of(barred)}")
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
@@ -138,7 +136,9 @@ class Script:
     letters and signs apart. A script does not change: a copy of an answer goes on with the same.
 
     `values` are those that may be written; without `logical`, anything may follow anything. An
-    answer has at most `most` entries; `chosen` is the task or skill whose name was written last.
+    answer has at most `most` entries; `chosen` is the task or skill whose name was written last,
+    `written` the text of the entry that is being written as far as its parts are matched, `opens`
+    the text before a name.
     """
 
     vocabulary: Vocabulary
@@ -146,6 +146,8 @@ class Script:
     logical: bool = True
     most: int = 0
     chosen: Any = None
+    written: str = ""
+    opens: str = ""
 
     @property
     def schema_alone(self) -> Script:
@@ -156,9 +158,46 @@ class Script:
         """The first grammar."""
         raise NotImplementedError
 
+    @property
+    def known(self) -> Sequence[Task] | Sequence[Skill]:
+        """What can be named next, whatever stands before."""
+        raise NotImplementedError
+
+    def offers(self, owner: Any) -> bool:
+        """Whether a task or skill may be named next."""
+        raise NotImplementedError
+
+    def read(self, text: str) -> Script:
+        """The script where a name follows the text of an entry, or what stands before the first."""
+        raise NotImplementedError
+
+    def behind(self, owners: Sequence[Any], *, names: bool) -> str:
+        """What may stand behind a name, up to the next one; with the name before it."""
+        raise NotImplementedError
+
     def following(self, text: str) -> tuple[str, Script] | None:
         """The next grammar and script behind a matched `text`; None: complete."""
-        raise NotImplementedError
+        named = {name_of(owner): owner for owner in self.known} if self.chosen is None else {}
+        if text in named:
+            chosen = replace(self, chosen=named[text], written=self.written + text)
+            return chosen.behind([chosen.chosen], names=False), chosen
+        if not text.endswith(self.opens):
+            return None
+        ahead = self.read(self.written + text)
+        return ahead.names(), ahead
+
+    def names(self) -> str:
+        """The names that may follow; with what stands behind them where one begins another."""
+        # A vocabulary can be such that nothing fits; the schema alone holds then.
+        offered = [owner for owner in self.known if self.offers(owner)] or list(self.known)
+        if prefix_free(map(name_of, self.known)):
+            return Grammar().text(" | ".join(literal(name_of(owner)) for owner in offered))
+        return self.behind(offered, names=True)
+
+    def entry(self, grammar: Grammar, owner: Task | Skill, *, named: bool) -> str:
+        """A task or skill behind its name, or with it where it is not `named` yet."""
+        behind = body(grammar, owner, self) or body(grammar, owner, self.schema_alone)
+        return f"{'' if named else literal(patterns.quoted(name_of(owner)))} {behind}"
 
     def parameter(
         self, grammar: Grammar, parameter: Parameter, owner: Any, context: Context
@@ -169,6 +208,11 @@ class Script:
     def needs(self, parameter: Parameter, owner: Any) -> bool:
         """Whether a parameter must be written."""
         return parameter.required
+
+
+def name_of(owner: Task | Skill) -> str:
+    """The name of a task or skill in plans."""
+    return owner.title if isinstance(owner, Task) else owner.name
 
 
 def written_number(number: float) -> str:

@@ -19,7 +19,6 @@ from planner_ft.decoding.constraints.grammar import Context, Grammar, Options, P
 from planner_ft.decoding.constraints.patterns import regex
 from planner_ft.decoding.constraints.spans import Spans
 from planner_ft.facts import read_input
-from planner_ft.facts.geometry import offset
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS, Level
@@ -58,9 +57,8 @@ class GroundedValues(Values):
         stated = [place for place in stated if max(map(abs, place)) < LARGEST]
         self._places = list(dict.fromkeys([vocabulary.home, vocabulary.unresolved, *stated]))
         if level == "mission" and source.ground:
-            ways = (self._places[:1] + stated, source.ground.bearings, source.ground.lengths)
-            away = itertools.islice(itertools.product(*ways), MOST_OFFSETS)
-            self._places += [offset(*one) for one in away]
+            away = source.ground.away((vocabulary.home, *stated))
+            self._places += itertools.islice(away, MOST_OFFSETS)
         too_long = [TOO_LONG] if self._spans.too_long else []
         self.notes = [*facts.unread, *([UNPAIRED] if facts.loose else []), *too_long]
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import functools
 import json
-import math
-from fractions import Fraction
+from decimal import Decimal
 
 WHOLE_DIGITS = 7
 """Digits before the point where a definition sets no range."""
@@ -57,58 +56,54 @@ def string(longest: int, *, blank: bool) -> str:
 
 # ---------------------------------------------------------------- numbers
 
-_FRACTION = rf"\.[0-9]{{0,{DECIMALS - 1}}}[1-9]"
-ANY_INTEGER = rf"(0|-?[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}})"
-ANY_NUMBER = rf"({ANY_INTEGER}|-?(0|[1-9][0-9]{{0,{WHOLE_DIGITS - 1}}}){_FRACTION})"
-ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
-CLOSING_ZEROS = r"-?[0-9]+\.[0-9]*0"
 SUMS = r"[xy0-9.+/=;\-]"
 """Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
 
 
+def any_number(*, whole: bool, digits: int = WHOLE_DIGITS) -> str:
+    """A regular expression for numbers of at most `digits` digits before the point."""
+    integer = rf"[1-9][0-9]{{0,{digits - 1}}}"
+    fraction = rf"\.[0-9]{{0,{DECIMALS - 1}}}[1-9]"
+    return rf"(0|-?{integer}" + ("" if whole else rf"|-?(0|{integer}){fraction}") + ")"
+
+
+ANY_INTEGER, ANY_NUMBER = any_number(whole=True), any_number(whole=False)
+ANY_POSITION = rf"\[{ANY_NUMBER},{ANY_NUMBER}\]"
+
+
 @functools.lru_cache(maxsize=1024)
-def number_range(minimum: float, maximum: float, *, whole: bool) -> str:
-    """A regular expression for the numbers from `minimum` to `maximum` with at most DECIMALS
-    decimals; closing zeros (CLOSING_ZEROS) are to be taken out.
+def number_range(minimum: float, maximum: float, *, whole: bool) -> tuple[str, list[str]]:
+    """A regular expression for numbers as they are written, and those for the numbers below
+    `minimum` and above `maximum`, which are to be taken out of it.
     """
-    low, high = Fraction(str(minimum)), Fraction(str(maximum))
-    options = []
-    for decimals in range(1 if whole else DECIMALS + 1):
-        scale = 10**decimals
-        least, most = math.ceil(low * scale), math.floor(high * scale)
-        options += _digits(max(least, 0), most, decimals)
-        options += [f"-{option}" for option in _digits(max(-most, 1), -least, decimals)]
-    return f"({'|'.join(options)})"
+    least, most = _plain(minimum), _plain(maximum)
+    digits = max(len(text.lstrip("-").partition(".")[0]) for text in (least, most))
+    barred = [f"-{_beyond(least[1:], 1)}"] if least[0] == "-" else ["-.*", _beyond(least, -1)]
+    if most[0] == "-":
+        barred += ["[0-9].*", f"-{_beyond(most[1:], -1)}"]
+    else:
+        barred.append(_beyond(most, 1))
+    return any_number(whole=whole, digits=digits), [one for one in barred if one.strip("-")]
 
 
-def _digits(low: int, high: int, decimals: int) -> list[str]:
-    """Patterns of whole numbers, one per number of digits, a point before the last `decimals`."""
-    options = []
-    for count in range(decimals + 1, max(len(str(high)), decimals + 1) + 1):
-        first = max(low, 10 ** (count - 1) if count > decimals + 1 else 0)
-        last = min(high, 10**count - 1)
-        if first <= last:
-            options.append(_between(str(first).zfill(count), str(last).zfill(count), decimals))
-    return options
+def _plain(number: float) -> str:
+    """A number without exponent and closing zeros."""
+    return f"{Decimal(str(number)) + 0:f}" if number % 1 else str(int(number))
 
 
-def _between(low: str, high: str, decimals: int) -> str:
-    """A pattern of the digit strings from `low` to `high`, which are equally long."""
-    if not low:
-        return ""
-    point = r"\." if len(low) == decimals else ""
-    if low[0] == high[0]:
-        return point + low[0] + _between(low[1:], high[1:], decimals)
-    rest = len(low) - 1
-    first, last, options = int(low[0]), int(high[0]), []
-    if low[1:].strip("0"):
-        options.append(low[0] + _between(low[1:], "9" * rest, decimals))
-        first += 1
-    if high[1:].strip("9"):
-        options.append(high[0] + _between("0" * rest, high[1:], decimals))
-        last -= 1
-    if first <= last:
-        behind = rf"[0-9]{{{rest - decimals}}}\.[0-9]{{{decimals}}}"
-        plain = f"[0-9]{{{rest}}}"
-        options.append(f"[{first}-{last}]" + (behind if 0 < decimals <= rest else plain))
-    return f"{point}({'|'.join(options)})"
+def _beyond(bound: str, side: int) -> str:
+    """Pattern of the numbers without sign above a bound (`side` 1) or below it (-1); "" for none."""
+    whole, _point, part = bound.partition(".")
+    more = r"(\.[0-9]+)?"
+    if side > 0:
+        options = [rf"[1-9][0-9]{{{len(whole)},}}{more}", rf"{whole}\.{part}[0-9]+"]
+    else:
+        options = [rf"[0-9]{{1,{len(whole) - 1}}}{more}"] if len(whole) > 1 else []
+        options += [rf"{whole}\.{part[:place]}" if place else whole for place in range(len(part))]
+    for place, digit in enumerate(whole + part):
+        first, last = (int(digit) + 1, 9) if side > 0 else (0, int(digit) - 1)
+        left = len(whole) - place
+        same = whole[:place] if left > 0 else rf"{whole}\.{part[:-left]}"
+        behind = rf"[0-9]{{{left - 1}}}{more}" if left > 0 else "[0-9]*"
+        options += [f"{same}[{first}-{last}]{behind}"] if first <= last else []
+    return f"({'|'.join(options)})" if options else ""

@@ -19,8 +19,6 @@ from planner_ft.facts.lists import WORDS
 
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""
-BLOCK = 60
-"""Words of a span at least: the engine follows rows of words by recursion, so they are cut."""
 MOST_UNENDING = 4
 """Function words in a row behind which a span may end all the same: an answer must be able to."""
 LONGEST_WORD = 64
@@ -76,32 +74,23 @@ class Spans:
         return grammar.terminal(f"{span}{none_of_texts(without)}") if span and without else span
 
     def _span(self, grammar: Grammar) -> str | None:
-        starts = self._chain(grammar, 0)
-        if len(self._pieces) > BLOCK:
-            starts |= self._chain(grammar, BLOCK // 2)
-        if not starts:
-            return None
-        marks, one = literal('"'), grammar.terminal(" | ".join(sorted(starts)))
-        more = f'(" " {one})?' if self._loose else ""
-        return grammar.terminal(f"{marks} {one} {more} {marks}")
-
-    def _chain(self, grammar: Grammar, offset: int) -> set[str]:
-        """The terminals of the spans from each word on, cut at every BLOCK words from `offset`."""
-        cut = len(self._pieces) > BLOCK
         names: dict[int, str] = {}
         for index in range(len(self._pieces) - 1, -1, -1):
-            piece, block = self._pieces[index], (index + offset) // BLOCK
+            piece = self._pieces[index]
             following = [
-                f"{literal(gap)} {names[place]}"
-                for gap, place in piece.following
-                if place in names and not (cut and (place + offset) // BLOCK != block)
+                f"{literal(gap)} {names[place]}" for gap, place in piece.following if place in names
             ]
             if piece.forms and (following or piece.ends):
                 forms = " | ".join(map(literal, piece.forms))
                 behind = f"({' | '.join(following)})" if following else ""
                 optional = "?" if piece.ends and following else ""
                 names[index] = grammar.terminal(f"({forms}) {behind}{optional}")
-        return {name for index, name in names.items() if self._pieces[index].begins}
+        starts = {name for index, name in names.items() if self._pieces[index].begins}
+        if not starts:
+            return None
+        marks, one = literal('"'), grammar.terminal(" | ".join(sorted(starts)))
+        more = f'(" " {one})?' if self._loose else ""
+        return grammar.terminal(f"{marks} {one} {more} {marks}")
 
     def _read(self, text: str) -> None:
         first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0

@@ -11,11 +11,12 @@ says.
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from planner_ft.decoding.constraints import grammar as lark
 from planner_ft.decoding.constraints.grammar import TASK_OPENS, Context, Grammar, Options, Script
-from planner_ft.decoding.constraints.patterns import literal, quoted
+from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.vocabulary import Parameter, Task
 from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
@@ -24,6 +25,7 @@ from planner_ft.vocabulary.replay import START, Progress, target_parameter
 class MissionScript(Script):
     """A mission plan: the titles that may follow, then what follows the `chosen` title."""
 
+    opens: str = TASK_OPENS
     most: int = lark.MOST_TASKS
     progress: Progress = START
 
@@ -32,44 +34,27 @@ class MissionScript(Script):
         closes = lark.mission_closes(grammar, self.values)
         return grammar.text(f"{literal(lark.mission_opens())} ({literal(TASK_OPENS)} | {closes})")
 
-    def following(self, text: str) -> tuple[str, Script] | None:
-        if self.chosen is None and text in self.vocabulary.task:
-            chosen = replace(self, chosen=self.vocabulary.task[text])
-            return chosen._tasks([chosen.chosen], titles=False), chosen
-        if not text.endswith(TASK_OPENS):
-            return None
-        if text == lark.mission_opens() + TASK_OPENS:
-            return self._titles(), self
-        title = self.chosen.title if self.chosen else ""
-        entry, _end = json.JSONDecoder().raw_decode(TASK_OPENS + quoted(title) + text)
-        task = self.vocabulary.task[entry["title"]]
-        progress = self.progress.after(task, entry["parameters"], self.vocabulary)
-        ahead = replace(self, progress=progress, chosen=None)
-        return ahead._titles(), ahead
+    @property
+    def known(self) -> Sequence[Task]:
+        return self.vocabulary.tasks
 
-    def _titles(self) -> str:
-        """The titles that may follow; with their tasks where one can be another's beginning."""
-        known = self.vocabulary.tasks
-        # A vocabulary can be such that nothing fits; the schema alone holds then.
-        offered = [
-            task
-            for task in known
-            if (not self.logical or self.progress.offers(task)) and lark.possible(task, self)
-        ] or list(known)
-        if lark.prefix_free(task.title for task in known):
-            return Grammar().text(" | ".join(literal(task.title) for task in offered))
-        return self._tasks(offered, titles=True)
+    def offers(self, owner: Task) -> bool:
+        fits = not self.logical or self.progress.offers(owner)
+        return fits and lark.possible(owner, self)
 
-    def _tasks(self, tasks: list[Task], *, titles: bool) -> str:
-        grammar, options = Grammar(), []
-        for task in tasks:
-            title = literal(quoted(task.title)) if titles else ""
-            behind = lark.body(grammar, task, self)
-            behind = behind or lark.body(grammar, task, self.schema_alone)
-            options += [f"{title} {behind}"] if behind else []
+    def read(self, text: str) -> MissionScript:
+        progress = self.progress
+        if self.written:
+            entry, _end = json.JSONDecoder().raw_decode(text)
+            task = self.vocabulary.task[entry["title"]]
+            progress = progress.after(task, entry["parameters"], self.vocabulary)
+        return replace(self, progress=progress, chosen=None, written=TASK_OPENS)
+
+    def behind(self, owners: Sequence[Task], *, names: bool) -> str:
+        grammar = Grammar()
+        entries = " | ".join(self.entry(grammar, task, named=not names) for task in owners)
         more = f"{literal(',' + TASK_OPENS)} | " if self.progress.tasks + 1 < self.most else ""
-        closes = lark.mission_closes(grammar, self.values)
-        return grammar.text(f"({' | '.join(options)}) ({more}{closes})")
+        return grammar.text(f"({entries}) ({more}{lark.mission_closes(grammar, self.values)})")
 
     # ------------------------------------------------------------ what the tasks so far leave
 

@@ -22,7 +22,7 @@ from planner_ft.decoding.constraints.grammar import (
     Script,
     key,
 )
-from planner_ft.decoding.constraints.patterns import literal, quoted
+from planner_ft.decoding.constraints.patterns import literal
 from planner_ft.decoding.constraints.waypoints import Path, Waypoints
 from planner_ft.vocabulary import Parameter, Skill
 from planner_ft.vocabulary.definition import Role
@@ -47,35 +47,27 @@ class TaskScript(Script):
 
     `waypoints` are those that the facts give, None where any may be meant; a path of `whole` is not
     left before its end. `steps` are the movements so far, with the one of the step that is being
-    written; `written` is that step's text as far as its parts are matched. `beside` are the skills
-    before the chosen one in its list.
+    written, `beside` the skills before the chosen one in its list.
     """
 
+    opens: str = SKILL_OPENS
     most: int = lark.MOST_STEPS
     waypoints: Waypoints | None = None
     whole: Waypoints | None = None
     steps: tuple[Step, ...] = ()
     role: Role = "navigation"
     beside: tuple[Step, ...] = ()
-    written: str = ""
 
     def opening(self) -> str:
         grammar = Grammar()
         opens = lark.sequence_opens(grammar)
         return grammar.text(f"{opens} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
 
-    def following(self, text: str) -> tuple[str, Script] | None:
-        if self.chosen is None and text in self.vocabulary.skill:
-            skill = self.vocabulary.skill[text]
-            ahead = replace(self, chosen=skill, written=self.written + text)
-            return ahead._behind([skill], names=False), ahead
-        if not text.endswith(SKILL_OPENS):
-            return None
-        ahead = self._read(self.written + text)
-        return ahead._names(), ahead
+    @property
+    def known(self) -> Sequence[Skill]:
+        return self.vocabulary.skills_in_role(self.role)
 
-    def _read(self, text: str) -> TaskScript:
-        """The script where a name follows the text of a step, or what stands before the first."""
+    def read(self, text: str) -> TaskScript:
         if not self.written:
             shown = self.waypoints.shown(without_working(text)[1]) if self.waypoints else None
             return replace(self, waypoints=shown, written=STEP_OPENS)
@@ -94,40 +86,28 @@ class TaskScript(Script):
         )
         return replace(ahead, role=role, beside=tuple(beside), written=text)
 
-    def _names(self) -> str:
-        """The names that may follow; with what stands behind them where one begins another."""
-        known = self.vocabulary.skills_in_role(self.role)
-        # An answer never stands without a way on.
-        offered = [skill for skill in known if self._offers(skill)] or list(known)
-        if not lark.prefix_free(skill.name for skill in self.vocabulary.skills):
-            return self._behind(offered, names=True)
-        return Grammar().text(" | ".join(literal(skill.name) for skill in offered))
-
-    def _offers(self, skill: Skill) -> bool:
+    def offers(self, owner: Skill) -> bool:
         if self.logical and self.role == "navigation":
             latest = self.steps[-MOST_SAME:]
             same = len(latest) == MOST_SAME and all(step == latest[0] for step in latest)
             run = [step[0] for step in self.steps[-MOST_RUN:]]
-            long = not skill.coordinates and run.count(skill) == MOST_RUN
-            return not ((same and latest[0][0] == skill) or long)
-        used = self._used(skill)
+            long = not owner.coordinates and run.count(owner) == MOST_RUN
+            return not ((same and latest[0][0] == owner) or long)
+        used = self._used(owner)
         if self.logical and used and not (all(used) and len(used) < MOST_ALIKE):
             return False
-        return lark.possible(skill, self)
+        return lark.possible(owner, self)
 
-    def _behind(self, skills: Sequence[Skill], *, names: bool) -> str:
-        """What may stand behind a skill's name, up to the next name; with the name before it."""
+    def behind(self, owners: Sequence[Skill], *, names: bool) -> str:
         grammar, options = Grammar(), []
-        for skill in skills:
+        for skill in owners:
             if self.role == "navigation":
                 going = bool(skill.coordinates)
                 ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', (), going=going)}"
             else:
                 used = [other for other, _parameters in self.beside]
                 ends = self._list(grammar, self.role, (*used, skill))
-            behind = lark.body(grammar, skill, self)
-            behind = behind or lark.body(grammar, skill, self.schema_alone)
-            options.append(f"{literal(quoted(skill.name)) if names else ''} {behind} {ends}")
+            options.append(f"{self.entry(grammar, skill, named=not names)} {ends}")
         return grammar.text(" | ".join(options))
 
     def _list(

@@ -59,24 +59,6 @@ class Tokens:
         found.pop(b"", None)
         return found, max(map(len, found))
 
-    def shortest(self, text: bytes) -> list[int]:
-        """The fewest tokens that spell a text."""
-        known, longest = self._by_bytes
-        best: list[tuple[int, list[int]]] = [(0, [])] * (len(text) + 1)
-        for start in range(len(text) - 1, -1, -1):
-            ends = range(start + 1, min(start + longest, len(text)) + 1)
-            end = min(
-                (one for one in ends if text[start:one] in known), key=lambda one: best[one][0]
-            )
-            best[start] = best[end][0] + 1, [known[text[start:end]], *best[end][1]]
-        return best[0][1]
-
-    @functools.lru_cache(maxsize=4096)  # noqa: B019 - tokens are kept as long as their tokenizer
-    def most_spelt(self, text: str) -> int:
-        """The most tokens that `shortest` needs for what is left of a text from anywhere on."""
-        whole = text.encode()
-        return max(len(self.shortest(whole[start:])) for start in range(len(whole)))
-
     def mask_of(self, ids: tuple[int, ...]) -> Mask:
         """The mask that allows these tokens and no others."""
         words = np.zeros(-(-self.n_vocab // 32), dtype=np.uint32)

@@ -38,14 +38,12 @@ GRID = re.compile(r"\b(?:grid|lawn-?mow|lanes?|lines?|legs|runs|transect|strip|p
 
 @dataclass(frozen=True)
 class Waypoints:
-    """The facts that waypoints are derived from. `worked` are coordinates by axis that the answer's
-    scratchpad derives; a path counts as begun with `begun` of its waypoints in a row. `whole`: the
-    task is one path of stated size, and is not done before its end.
+    """What waypoints are derived from, and the paths that it gives. `worked` are coordinates by
+    axis that the answer's scratchpad derives; a path counts as begun with `begun` of its waypoints
+    in a row. `whole`: the task is one path of stated size, and is not done before its end.
     """
 
-    places: tuple[Point, ...]
-    lengths: tuple[float, ...]
-    bearings: tuple[float, ...]
+    ground: Ground
     paths: tuple[Path, ...]
     begun: int = BEGUN
     worked: tuple[frozenset[float], frozenset[float]] = (frozenset(), frozenset())
@@ -53,8 +51,8 @@ class Waypoints:
 
     def shown(self, working: str) -> Waypoints:
         """These with the coordinates of right sums of a working (data.task.working)."""
-        found = tuple({place[axis] for place in self.places} for axis in (0, 1))
-        lengths = set(self.lengths)
+        found = tuple({place[axis] for place in self.ground.places} for axis in (0, 1))
+        lengths = set(self.ground.lengths)
         for axis, base, sign, away, result in SUM.findall(working):
             one, other, value = float(base), float(away), float(result)
             known = found["xy".index(axis)] if axis else set()
@@ -70,22 +68,17 @@ class Waypoints:
         any that the facts give, but for the one where the vehicle is. Behind a path that is all of
         its task follow only stated places, and a path anew: no further lane.
         """
-        begun = self._begun(before)
+        begun, ground = self._begun(before), self.ground
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
         complete = any(done == len(path) for path, done in begun)
         if onward and not complete and begun[0][1] >= self.begun:
             return list(onward)
         if complete and self.whole:
-            anew = dict.fromkeys((*self.places, *self._starts))
+            anew = dict.fromkeys((*ground.places, *self._starts))
             return [point for point in anew if point not in before[-1:]]
-        away = (
-            g.offset(base, bearing, length)
-            for base in dict.fromkeys((*before[-1:], *self.places))
-            for length in self.lengths
-            for bearing in self.bearings
-        )
+        away = ground.away(dict.fromkeys((*before[-1:], *ground.places)))
         options = itertools.chain(
-            self.places, before, self._starts, onward, away, itertools.product(*self.worked)
+            ground.places, before, self._starts, onward, away, itertools.product(*self.worked)
         )
         return [point for point in dict.fromkeys(options) if point not in before[-1:]]
 
@@ -126,22 +119,23 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
     if ground is None:
         return "The geometry of the command is not certain; the waypoints are the model's."
     places = tuple(place for place in ground.places if place != vocabulary.unresolved)
-    begun = 2 if pattern in SHAPED else BEGUN
+    ground = replace(ground, places=places)
     own = tuple(_own_lanes(source, places)) if pattern == "lawnmower" else ()
     if own:
-        return Waypoints(places, ground.lengths, ground.bearings, own, begun=1, whole=True)
+        return Waypoints(ground, own, begun=1, whole=True)
     grid = pattern == "lawnmower" or GRID.search(source.facts.text)
     lanes = (
-        _lanes((x, y), width, length, spacing)
+        path
         for x, y, width, length in (ground.areas if grid else ())
         for spacing in ground.spacings(width, length)
+        for path in _lanes((x, y), width, length, spacing)
     )
-    found = itertools.chain(itertools.chain.from_iterable(lanes), _rings(ground))
-    paths = tuple(dict.fromkeys(itertools.islice(found, MOST_PATHS)))
+    found = itertools.islice(itertools.chain(lanes, _rings(ground)), MOST_PATHS)
+    paths = tuple(dict.fromkeys(found))
     if pattern in SHAPED and not paths:
         lacking = SHAPED[pattern]
         return f"The command states no {lacking} for {title}; its waypoints are the model's."
-    return Waypoints(places, ground.lengths, ground.bearings, paths, begun)
+    return Waypoints(ground, paths, 2 if pattern in SHAPED else BEGUN)
 
 
 def _own_lanes(source: Input, places: Sequence[Point]) -> Iterator[Path]:

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.document.language import Clause, language, read_clauses
-from planner_ft.document.ontology import positions_of, rows_of
 from planner_ft.document.track import Track
 from planner_ft.document.warnings.kinds import Warning
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.numbers import read_numbers, rows_of_sizes
 from planner_ft.facts.places import read_positions, without_geographic
+from planner_ft.facts.rows import positions_of, rows_of
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills

@@ -1,12 +1,13 @@
 """Which steps a skill runs in, as it is said and as it is labelled."""
 
-import random
+import itertools
 import re
 
 import pytest
 
-from planner_ft.data.task.frames import Scopes
+from planner_ft.data.task.compose import frames
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.templates.grammar import all_slots
 from planner_ft.data.templates.render import joined
 from planner_ft.vocabulary.definition import load_vocabulary
 
@@ -22,28 +23,28 @@ def records():
     ]
 
 
-def scope_words(count, chosen, *, numbered=False):
-    """Every wording found for the steps `chosen` of so many movements of one step each."""
-    scopes = Scopes(count, "step", random.Random(5), numbered=numbered)
-    return {scopes.words(frozenset(chosen)) for _ in range(600)}
+SCOPE = re.compile(r"\{([DF]\d+)[^}]*\} \(*(?:only |)(?:in|during|for) the (\w+) \{step\}")
+NTH = ("first", "second", "third", "fourth", "fifth")
 
 
-@pytest.mark.parametrize(
-    ("count", "chosen", "numbered", "some"),
-    [
-        (2, [0, 1], False, {"throughout", "in every step", "in both steps"}),
-        (2, [1], False, {"in the second step", "only during the last step"}),
-        (3, [0, 2], False, {"in all steps but the second", "in the first and third steps"}),
-        (3, [0, 2], True, {"in steps 1 and 3"}),
-    ],
-)
-def test_words_for_the_steps_in_which_a_skill_runs(count, chosen, numbered, some):
-    assert some <= scope_words(count, chosen, numbered=numbered)
+def test_frames_label_the_step_that_they_name():
+    checked = 0
+    for frame in [*itertools.chain(*frames(unseen=False).values())]:
+        for key, nth in SCOPE.findall(frame.text):
+            named = len(frame.steps) - 1 if nth == "last" else NTH.index(nth)
+            runs = [key in {call.name for call in step.calls()} for step in frame.steps]
+            assert runs == [place == named for place in range(len(frame.steps))], frame.text
+            checked += 1
+    assert checked > 80
 
 
-def test_nothing_is_said_that_could_mean_another_step():
-    assert not any(re.search("first|second|last|only|not", text) for text in scope_words(2, [0, 1]))
-    assert all(re.search("second|last|but the first|except", text) for text in scope_words(2, [1]))
+def test_frames_say_and_plan_the_same_slots():
+    for unseen in (False, True):
+        found = frames(unseen=unseen)
+        assert sorted(found) == [0, 1, 2, 3, 4, 5]
+        for frame in itertools.chain(*found.values()):
+            said = {slot.key for slot in all_slots(frame.nodes)} - {"step"}
+            assert said == {call.name for step in frame.steps for call in step.calls()} - {"Hold"}
 
 
 def test_refusals_add_nothing(records):

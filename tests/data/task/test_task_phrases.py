@@ -26,7 +26,8 @@ def clause(phrase, *, ing=False, skill="StationKeep"):
     for seed in range(200):
         context = Context(BOOK, USV.task["KeepStation"], random.Random(seed))
         drawing = Drawing(skill_clause(BOOK, skill, phrase, ing), context)
-        yield plain(joined(drawing.pieces(), small=True)), drawing.plan.route()[0][1], context
+        given = drawing.plan.steps()[0]["navigation_skill"]["parameters"]
+        yield plain(joined(drawing.pieces(), small=True)), given, context
 
 
 def test_optional_parts_stand_exactly_when_their_slot_is_given():

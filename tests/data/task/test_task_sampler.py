@@ -47,7 +47,7 @@ def test_records_are_canonical_and_strictly_valid():
 def test_prompts_are_tidy():
     for record in [*sampled("train", 800), *sampled("test_unseen", 200)]:
         prompt = record["prompt"]
-        assert not re.search(r"[\x02\x03{}~]|  | [.,;]|^\s|\s$", prompt), prompt
+        assert not re.search(r"[\x02\x03{}~]|  | [.,;](?!\.\.)|^\s|\s$", prompt), prompt
 
 
 def test_same_seed_same_bytes():

@@ -76,14 +76,3 @@ def test_a_path_that_was_begun_is_left_when_the_limit_comes_near(embedded: Any) 
         constraint.accept(ids[-1])
     assert constraint.cut
     assert 3 <= len(decoded(embedded, ids)["skill_sequence"]) < 62
-
-
-def test_the_fewest_tokens_are_found(embedded: Any) -> None:
-    from planner_ft.decoding.constraints.tokens import tokens_of
-
-    tokens = tokens_of(embedded, (2,))
-    text = b'"},"task_prompt":"Hold.'
-    ids = tokens.shortest(text)
-    assert b"".join(map(tokens.bytes_of, ids)) == text
-    assert len(ids) <= len(embedded.encode(text.decode(), add_special_tokens=False))
-    assert tokens.most_spelt(text.decode()) >= len(ids)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.constraints.grammar import Grammar
-from planner_ft.decoding.constraints.spans import BLOCK, MOST_WORDS, Spans
+from planner_ft.decoding.constraints.spans import MOST_WORDS, Spans
 from planner_ft.support.files import compact_json
 
 
@@ -98,8 +98,9 @@ def test_spans_of_several_texts_do_not_run_into_one_another(embedded: Any) -> No
 
 
 def test_long_commands_keep_their_spans(embedded: Any) -> None:
-    words = [f"word{number}" for number in range(BLOCK * 3)]
+    words = [f"word{number}" for number in range(180)]
     for place in range(0, len(words) - 5, 7):
         assert admitted(embedded, [" ".join(words)], " ".join(words[place : place + 5]))
+    assert admitted(embedded, [" ".join(words)], " ".join(words[10:170]))
     assert Spans([" ".join(words)]).too_long is False
     assert Spans(["word " * (MOST_WORDS + 1)]).too_long is True

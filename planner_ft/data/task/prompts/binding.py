@@ -13,6 +13,7 @@ from planner_ft.data.task.values import Draw
 from planner_ft.data.templates.grammar import (
     Argument,
     Call,
+    Nodes,
     Step,
     TemplateError,
     all_slots,
@@ -40,6 +41,7 @@ class Bound:
     """A template that can be drawn for one task. Every argument of its steps has a name."""
 
     template: Template
+    nodes: Nodes = ()
     steps: list[Step] = field(default_factory=list)
     everywhere: Step | None = None
     front: bool = False
@@ -52,7 +54,15 @@ class Bound:
     often: dict[str, float] = field(default_factory=dict)
     """Slots of optional parts, and how often they are given."""
     clause: bool = False
-    """Whether this is a part of a prompt, in the words of the phrase file."""
+    """Whether this is in the words of the phrase file."""
+
+    def add(self, part: Bound) -> None:
+        """Take over what the slots of a part need."""
+        self.sources |= part.sources
+        self.signs |= part.signs
+        self.often |= part.often
+        self.params |= part.params
+        self.located |= part.located
 
 
 def titles(template: Template, vocabulary: Vocabulary) -> Sequence[str]:
@@ -79,7 +89,7 @@ def binding(template: Template, title: str, book: Phrasebook) -> Bound | None:
 
 def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
     """The template for this task. Raises TemplateError that says what does not fit."""
-    binder = _Binder(Bound(template), task, book)
+    binder = _Binder(Bound(template, template.nodes), task, book)
     bound, slots = binder.bound, list(all_slots(template.nodes))
     for slot in slots:
         if slot.sign == "param":
@@ -167,7 +177,7 @@ class _Binder:
         shape = SHAPES[call.name]
         if shape.motion not in self.book.motions:
             fail(f"the vehicle has no skill for {call.name}")
-        arguments: dict[str, Argument] = {}
+        arguments: list[Argument] = []
         for argument in call.arguments:
             role, value = self._name(argument, "point"), str(argument.value)
             if role not in shape.roles and role not in shape.options:
@@ -178,14 +188,17 @@ class _Binder:
                 joint = call.name == "Grid" and role in ("width", "length", "spacing", "count")
                 draw = _no_draw if joint else value_draw(call.name, role, base_of(value))
                 self._use(value, Source(draw, shape.roles.get(role, "")))
-            arguments[role] = replace(argument, name=role)
+            arguments.append(replace(argument, name=role))
+        given = {argument.name for argument in arguments}
         for role, place in shape.roles.items():
-            if role not in arguments and not (role == "spacing" and "count" in arguments):
-                arguments[role] = Argument("param", self._own(call, role, place), role)
-        point = arguments.get("point")
-        if point is not None and point.kind == "param":
-            self.bound.located.add(str(point.value))
-        return replace(call, arguments=tuple(arguments.values()))
+            if role not in given and not (role == "spacing" and "count" in given):
+                arguments.append(Argument("param", self._own(call, role, place), role))
+        self.bound.located |= {
+            str(argument.value)
+            for argument in arguments
+            if argument.name == "point" and argument.kind == "param"
+        }
+        return replace(call, arguments=tuple(arguments))
 
     def _own(self, call: Call, role: str, place: str) -> str:
         """The task parameter for what the plan does not give."""

@@ -27,7 +27,7 @@ RIGHT = (" to the right", " to starboard", " clockwise")
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
     """The prompt with its values marked, its plan and skills; None for a draw without a plan."""
     drawing = Drawing(bound, context)
-    text = joined(drawing.pieces(), small=drawing.small)
+    text = joined(drawing.pieces(), small=drawing.small and not bound.clause)
     try:
         steps = drawing.plan.steps()
     except (ValueError, ZeroDivisionError):
@@ -55,17 +55,17 @@ class Drawing(Chosen):
         self.values: dict[str, Value] = {}
         self.referred: dict[str, str] = {}
         self._task_values()
-        for step in bound.steps:
-            if step.call.name == "Grid":
-                self._grid(step.call)
         given = frozenset(
             key
             for key, share in bound.often.items()
             if self.rng.random() < share or context.linked(bound.sources[key].place)
         )
-        super().__init__(bound.template.nodes, self.rng, given)
+        super().__init__(bound.nodes, self.rng, given)
         self.small = is_small(self.parts)
-        self.plan = Plan(bound, self.book, self.labels, self._value)
+        for step in bound.steps:
+            if step.call.name == "Grid":
+                self._grid(step.call)
+        self.plan = Plan(bound, self.book, self.labels | self.said, self._value)
         for slot in self.slots:
             if not slot.sign and slot.key not in self.values:
                 self.values[slot.key] = self._draw(slot)
@@ -93,7 +93,11 @@ class Drawing(Chosen):
     def _grid(self, call: Call) -> None:
         """Size and spacing that fill each other, in the slots and in the task's parameters."""
         context, rng = self.context, self.rng
-        arguments = {argument.name: argument for argument in call.arguments}
+        arguments = {
+            argument.name: argument
+            for argument in call.arguments
+            if argument.kind != "slot" or argument.value in self.said
+        }
         axis: Any = "y"
         if "axis" in arguments:
             axis = arguments["axis"].value

@@ -16,7 +16,14 @@ from planner_ft.data.numbers import (
     position,
     rotation,
 )
-from planner_ft.data.task.values import Draw, draw_bearing, draw_number, draw_point, draw_rotation
+from planner_ft.data.task.values import (
+    TABLE,
+    Draw,
+    draw_bearing,
+    draw_number,
+    draw_point,
+    draw_rotation,
+)
 from planner_ft.data.templates.grammar import fail
 from planner_ft.facts import geometry as g
 
@@ -108,18 +115,13 @@ SHAPES: Mapping[str, Shape] = {
 # ---------------------------------------------------------------- values
 
 
-def _words(*options: str) -> Draw:
+def one_of(options: Sequence[Any]) -> Draw:
+    """A draw of one of some words or counts."""
+
     def draw(rng: Random) -> Value:
-        word = pick(options, rng)
-        return Value(word, word, word)
-
-    return draw
-
-
-def _count(*numbers: int) -> Draw:
-    def draw(rng: Random) -> Value:
-        number = pick(numbers, rng)
-        return Value(number, count_text(number, rng), str(number))
+        option = pick(options, rng)
+        text = option if isinstance(option, str) else count_text(option, rng)
+        return Value(option, text, str(option))
 
     return draw
 
@@ -133,43 +135,37 @@ def direction(rng: Random) -> Value:
 
 
 DRAWS: Mapping[tuple[str, str], Draw] = {
-    ("Ring", "count"): _count(4, 8, 6, 12, 4, 3, 6, 8),
-    ("Sectors", "count"): _count(3, 4, 4, 5, 6, 6, 8, 8, 9, 10, 12),
-    ("Turns", "count"): _count(2, 3, 3, 4, 4, 5, 6, 8),
     ("Line", "heading"): lambda rng: bearing(draw_bearing(rng), rng),
     ("Sectors", "heading"): lambda rng: bearing(pick((0, 0, 45, 90, 180, 270), rng), rng),
-    ("Grid", "start"): _words(*g.CORNERS),
-    ("Grid", "corner"): _words(*g.CORNERS),
     ("Grid", "compass"): lambda rng: pick(
         (Value("y", "north-south"), Value("x", "east-west")), rng
     ),
-    ("Square", "start"): _words(*g.SQUARE_STARTS),
-    ("Square", "corner"): _words(*(name for name in g.SQUARE_STARTS if "-" in name)),
-    ("Square", "side"): _words(*(name for name in g.SQUARE_STARTS if "-" not in name)),
-    ("Ring", "start"): _words("north", "east", "south", "west"),
-    ("", "point"): lambda rng: position(draw_point(rng), rng),
-    ("", "radius"): lambda rng: length(draw_number(rng, 4, 60), rng),
-    ("", "length"): lambda rng: length(draw_number(rng, 5, 150), rng),
-    ("", "direction"): direction,
-    ("", "heading"): direction,
-    ("", "turn"): _words("clockwise", "anticlockwise", "counter-clockwise"),
-    ("", "axis"): _words("x", "y"),
-    ("", "delta_yaw"): lambda rng: rotation(draw_rotation(rng, 90), rng),
+    ("any", "point"): lambda rng: position(draw_point(rng), rng),
+    ("any", "radius"): lambda rng: length(draw_number(rng, 4, 60), rng),
+    ("any", "length"): lambda rng: length(draw_number(rng, 5, 150), rng),
+    ("any", "direction"): direction,
+    ("any", "heading"): direction,
+    ("any", "delta_yaw"): lambda rng: rotation(draw_rotation(rng, 90), rng),
+    **{
+        (shape, slot): one_of(options)
+        for shape, slots in TABLE["draws"].items()
+        for slot, options in slots.items()
+    },
 }
-"""By shape, or "" for any, and slot or role."""
+"""By shape, or "any", and slot or role."""
 
 
 def value_draw(shape: str, role: str, base: str) -> Draw:
     """How the value of a slot in a shape is drawn. Raises TemplateError for one that is not."""
-    by_role = ((shape, role), ("", role)) if base != "direction" else (("", base),)
+    by_role = ((shape, role), ("any", role)) if base != "direction" else (("any", base),)
     keys = (key for key in ((shape, base), *by_role) if key in DRAWS)
     return DRAWS[next(keys, None) or fail(f"{shape} cannot draw a {role}")]
 
 
 def grid_size(rng: Random, *, free: bool) -> dict[str, float]:
     """A grid's sizes and lanes, which fit; `free`: its length is no multiple of the spacing."""
-    spacing = pick((2, 2.5, 3, 4, 5, 5, 6, 7.5, 8, 10, 10, 12, 15, 20, 25), rng)
-    width = g.tidy(spacing * (pick((2, 2, 3, 3, 3, 4, 4, 5, 5, 6, 7, 8, 9, 11), rng) - 1))
+    spacing = pick(TABLE["grid"]["spacing"], rng)
+    width = g.tidy(spacing * (pick(TABLE["grid"]["lanes"], rng) - 1))
     along = g.tidy(spacing * rng.randrange(1, 11))
     if free and rng.random() < 0.6:
         round_ = rng.random() < 0.7
