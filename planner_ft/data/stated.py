@@ -12,11 +12,13 @@ from typing import Any
 from planner_ft.facts import Input, missing_words, near, read_input, words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
+from planner_ft.facts.units import in_base_units
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import MISSION_KEYS, step_skills, value_problem
 
-UNUSED = frozenset({"rule.correction", "rule.exclusion", "rule.search-on-request"})
+TOLD = "rule.told"
+UNUSED = frozenset({"rule.correction", "rule.exclusion", "rule.search-on-request", TOLD})
 """Tags of commands that say values which the plan does not take over."""
 TURNS = ("turn_to", "turn_by")
 
@@ -94,8 +96,8 @@ def completeness_problems(record: dict[str, Any], vocabulary: Vocabulary) -> Ite
     yield from _invented_numbers(expected, prompt, vocabulary)
     tags = record.get("tags")
     if isinstance(tags, list) and tasks and not UNUSED & set(map(str, tags)):
-        for lost in _lost_values(expected, values, prompt):
-            yield f"expected: {lost} in no parameter and no constraint"
+        for lost in _lost_values(expected, values, prompt, vocabulary):
+            yield f"expected: {lost} in no parameter and no constraint; if it is told and not asked for, tag {TOLD} says so"
 
 
 def _invented_numbers(
@@ -117,15 +119,24 @@ def _invented_numbers(
                 yield f"expected: {where}: {value} is neither in the command nor in a parameter"
 
 
-def _lost_values(expected: dict[str, Any], values: list[Any], prompt: str) -> Iterator[str]:
-    """Quantities with a unit, and coordinates in brackets, of the command that the plan lacks."""
+def _lost_values(
+    expected: dict[str, Any], values: list[Any], prompt: str, vocabulary: Vocabulary
+) -> Iterator[str]:
+    """Quantities with a unit, and coordinates in brackets, of the command that the plan lacks. "A
+    day" and "an hour" may be sayings and are passed over.
+    """
     flat = [one for value in values for one in (value if isinstance(value, list) else [value])]
     numbers = [number for number in flat if isinstance(number, int | float)]
+    for task in expected["tasks"]:
+        known = vocabulary.task[task["title"]].by_name
+        numbers += in_base_units(task["parameters"], known)
     for text in (*expected["assumptions"], *expected["constraints"]):
         numbers += [found.value for found in read_numbers(text)]
     for found in read_numbers(prompt):
-        if found.unit and not any(near(number, found.value) for number in numbers):
-            yield f"{prompt[found.start : found.end]!r} of the command stands"
+        said = prompt[found.start : found.end]
+        saying = words(said)[:1] in (["a"], ["an"])
+        if found.unit and not saying and not any(near(one, found.value) for one in numbers):
+            yield f"{said!r} of the command stands"
     for place in read_positions(prompt):
         stated = [place.x, place.y] in values or {place.x, place.y} <= set(numbers)
         if prompt[place.start - 1 : place.start] in ("[", "(") and not stated:

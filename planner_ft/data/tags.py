@@ -25,6 +25,8 @@ TAGS: dict[str, str] = _column("rule")
 """Tag to what a command with it exercises."""
 TASKS_OF_TAG: dict[str, list[str]] = _column("tasks")
 """A record with the tag has one of these tasks."""
+ROLE_OF_TAG: dict[str, str] = _column("role")
+"""A record with the tag has the task that the vehicle's definition names for this role."""
 ALWAYS_TAGGED: dict[str, str] = {task: tag for tag, task in _column("always").items()}
 """A record with the task has this tag."""
 WORDS = {tag: re.compile(rf"\b(?:{words})\b", re.I) for tag, words in _column("words").items()}
@@ -39,12 +41,20 @@ def tags_of(vocabulary: Vocabulary) -> list[str]:
     return [tag for tag in TAGS if not known.isdisjoint(TASKS_OF_TAG.get(tag, known))]
 
 
+def unchecked_tags(records: Records, vocabulary: Vocabulary) -> list[str]:
+    """Tags of records that are about tasks of other vehicles, so that nothing checks them."""
+    used = {tag for record in records for tag in record.get("tags", ())}
+    return [tag for tag in TAGS if tag in used and tag not in tags_of(vocabulary)]
+
+
 def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     """Unknown tags, and tags that do not agree with the tasks of the expected plan."""
     tags = record.get("tags", [])
     titles = set(plan_names("mission", record.get("expected")))
     for tag in tags:
+        role = ROLE_OF_TAG.get(tag)
         needed = [title for title in TASKS_OF_TAG.get(tag, ()) if title in vocabulary.task]
+        needed += [getattr(vocabulary, role)] if role else []
         if tag not in TAGS:
             yield f"tag {tag!r} is not known"
         elif needed and titles.isdisjoint(needed):

@@ -64,7 +64,8 @@ def _with_other_numbers(
             # In the plan it stands as it is said, and in the base unit.
             pairs = [(number.said, new)]
             if number.unit and number.factor not in (0.0, 1.0):
-                pairs.append((round(number.value, 2), round(new * number.factor, 2)))
+                other = new * number.factor + number.added
+                pairs.append((round(number.value, 2), round(other, 2)))
             for old, now in pairs:
                 clash |= said.setdefault(old, now) != now
         apart = len(set(drawn.values()) | own) == len(drawn) + len(own)

@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.data.curated import SPLITS, curated_folder
+from planner_ft.data.tags import unchecked_tags
 from planner_ft.data.templates.checking import checked_templates
 from planner_ft.data.templates.records import template_files, templates
 from planner_ft.data.validation import validate_file
 from planner_ft.document.language import language
 from planner_ft.document.vehicle import load_vehicle
+from planner_ft.facts.units import named
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, read_text, write_text
@@ -92,21 +94,43 @@ def check_vehicle(source: str) -> list[Part]:
     """Every file of a vehicle, with what is wrong or lacking. Raises PlannerError for a definition
     that is not there.
     """
+    source = _definition(source)
     try:
         vocabulary = load_vocabulary(source)
     except PlannerError as error:
-        if not Path(source).is_file():
-            raise
         return [Part(Path(source).name, "every command", "wrong", str(error))]
     path = vocabulary.path
     assert path is not None
     size = f"{len(vocabulary.tasks)} tasks, {len(vocabulary.skills)} skills"
+    doubts = "".join(f"; {doubt}" for doubt in _doubts(vocabulary))
     return [
-        Part(path.name, "every command", "ready", size),
+        Part(path.name, "every command", "ready", size + doubts),
         _mission_set(vocabulary),
         _templates(vocabulary),
         *_beside(vocabulary, path),
     ]
+
+
+def _definition(source: str) -> str:
+    """The definition that is meant: a file, a bundled vehicle, or the one of a folder."""
+    if source in bundled_vocabularies() or Path(source).is_file():
+        return source
+    found = [path for path in Path(source).glob("*.toml") if "." not in path.stem]
+    if len(found) != 1:
+        what = f"holds {len(found)} definitions" if Path(source).is_dir() else "no such file"
+        raise PlannerError(f"{source}: {what}; give the TOML file of a vehicle, or its folder")
+    return str(found[0])
+
+
+def _doubts(vocabulary: Vocabulary) -> Iterator[str]:
+    """What a definition may have and hardly means."""
+    listed = {name for task in vocabulary.tasks for names in task.skills.values() for name in names}
+    if unused := [name for name in vocabulary.skill if name not in listed]:
+        yield f"no task lists the skill {', '.join(unused)}"
+    owners = [*vocabulary.tasks, *vocabulary.skills]
+    strange = {one.unit for owner in owners for one in owner.parameters if not named(one.unit)}
+    for unit in sorted(filter(None, strange)):
+        yield f"the unit {unit!r} is not known: numbers are taken as they are said"
 
 
 def _beside(vocabulary: Vocabulary, path: Path) -> Iterator[Part]:
@@ -161,6 +185,8 @@ def _mission_set(vocabulary: Vocabulary) -> Part:
         return Part("mission/", serves, "wrong", str(error))
     found = Counter(name for one in records for name in plan_names("mission", one["expected"]))
     text = f"{len(records)} commands" + _unused(vocabulary, "none has", found)
+    if tags := unchecked_tags(records, vocabulary):
+        text += f"; tags about tasks of other vehicles are not checked: {', '.join(tags)}"
     return Part("mission/", serves, "ready", text)
 
 

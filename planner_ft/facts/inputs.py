@@ -11,8 +11,9 @@ from typing import Any
 
 from planner_ft.facts import derived, reading
 from planner_ft.facts.geometry import Point
-from planner_ft.facts.lists import MULTIPLES, WORDS
+from planner_ft.facts.lists import MULTIPLES, UNITS, WORDS
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
+from planner_ft.facts.units import base_of, converted, named
 from planner_ft.facts.words import missing_words, normalised, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
@@ -141,15 +142,16 @@ class Input:
         at task level with what follows from them.
         """
         unit, known = parameter.unit, self.task.by_name if self.task else {}
+        base = base_of(unit)
         found = [number.value for number in self.facts.numbers(unit)]
         for name, value in self.parameters.items():
-            own_unit = known[name].unit if name in known else None
-            if unit is None or own_unit in (None, unit):
-                items = value if isinstance(value, list) else [value]
-                found += [item for item in items if is_number(item)]
-        if unit in ("s", "m"):
+            own_unit = (known[name].unit if name in known else None) or unit
+            items = filter(is_number, value if isinstance(value, list) else [value])
+            given = (item if base is None else converted(item, own_unit, unit) for item in items)
+            found += [item for item in given if item is not None]
+        if base in ("s", "m"):
             found += [value * factor for factor in self._factors for value in found]
-        if unit == "deg":
+        if named(unit) == UNITS["deg"]:
             found += [angle.value for angle in (*self.facts.bearings, *self.facts.turns)]
             counts = derived.sector_counts((*self.facts.counts, *filter(is_number, self._values)))
             found += derived.turned(found, counts) if self.is_task else []
@@ -162,11 +164,11 @@ class Input:
         return tuple({factor for word, factor in MULTIPLES.items() if word in said})
 
     def _own(self, unit: str | None) -> Iterator[float]:
-        """The numbers in a unit among the task's parameters."""
+        """The numbers in a base unit among the task's parameters."""
         known = self.task.by_name if self.task else {}
         for name, value in self.parameters.items():
-            if is_number(value) and name in known and known[name].unit == unit:
-                yield value
+            if is_number(value) and name in known and base_of(own := known[name].unit) == unit:
+                yield value if unit is None else converted(value, own, unit) or value
 
     @functools.cached_property
     def _values(self) -> list[Any]:

@@ -9,8 +9,9 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from planner_ft.facts.lists import DIGITS, FRACTIONS, UNITS, WORDS
-from planner_ft.facts.numerals import AND, Row
+from planner_ft.facts.lists import DIGITS, FRACTIONS, SPOKEN, TIMES, UNITS, WORDS
+from planner_ft.facts.numerals import AND, NUMERALS, Row
+from planner_ft.facts.units import base_of, named
 from planner_ft.facts.words import edit_distance, is_known
 
 WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
@@ -45,6 +46,11 @@ _A_SECOND_ONE = re.compile(
     r"|nudges?|fix|still|pin|round|lap|look|stop|wait|stay)\b",
     re.IGNORECASE,
 )
+_NAME = re.compile(r"(?<![^\W_])(?P<letters>[^\W\d_]+)(?P<joint>[-_/]?)(?:\d+[-_/])*$")
+_LEADS_TO_NAME = re.compile(r"[-_][A-Z]+[-_]?\d")
+AXES = tuple("nsew")
+LONGEST_NAME = 24
+"""Characters of a name before its last figures."""
 _THINGS = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 
 
@@ -65,11 +71,12 @@ class Number:
     said: float = 0.0
     counts: bool = False
     stop: int = 0
+    added: float = 0.0
 
     @property
     def factor(self) -> float:
-        """What one unit as it was said is in `unit`; 0 for a nought."""
-        return self.value / self.said if self.said else 0.0
+        """What one unit as it was said is in `unit`, beside what is `added`; 0 for a nought."""
+        return (self.value - self.added) / self.said if self.said else 0.0
 
 
 @functools.lru_cache(maxsize=4096)
@@ -79,17 +86,37 @@ def read_numbers(text: str) -> tuple[Number, ...]:
 
 
 @functools.lru_cache(maxsize=4096)
-def read_all(text: str) -> tuple[Number, ...]:
-    """The numbers in every way of reading a text, in order; rank REREAD for not the plain one."""
-    plain = dict.fromkeys(read_numbers(text))
-    others = itertools.chain(_times(text), *map(_every, read_rows(text)))
+def read_all(text: str, *, letters: bool = False) -> tuple[Number, ...]:
+    """The numbers in every way of reading a text, in order; rank REREAD for not the plain one. With
+    `letters`, a single letter can be a unit: "24 V".
+    """
+    rows = read_rows(text, letters=letters)
+    plain = dict.fromkeys(_plain(rows[0]))
+    others = itertools.chain(_times(text), *map(_every, rows))
     reread = (replace(one, rank=REREAD + (one.rank >= BARE)) for one in others if one not in plain)
     return tuple(sorted((*plain, *dict.fromkeys(reread)), key=lambda number: number.start))
 
 
 def in_unit(text: str, unit: str | None) -> Iterator[Number]:
     """The numbers as values of a parameter in `unit`, bare ones and sums of neighbours too."""
-    numbers = read_all(text)
+    own, base = named(unit), base_of(unit)
+    if unit and own is None:
+        # What nobody knows how to convert stands as it is said.
+        yield from (replace(one, value=one.said, unit=None) for one in read_all(text))
+        return
+    for number in _in_base(text, base):
+        if own and number.unit == base is not None:
+            added = (number.added - own.added) / own.factor
+            yield replace(number, value=own.of_base(number.value), unit=unit, added=added)
+        else:
+            yield number
+    if base is None:
+        yield from _times_said(text)
+
+
+def _in_base(text: str, unit: str | None) -> Iterator[Number]:
+    """The numbers as values in a base unit."""
+    numbers = read_all(text, letters=unit not in SPOKEN)
     totals = list(_sums(numbers, unit))
     # "2 h 20 min" are no two hours.
     parts = [total for total, whole in totals if whole]
@@ -97,7 +124,7 @@ def in_unit(text: str, unit: str | None) -> Iterator[Number]:
         if number.unit == unit:
             if not any(total.start <= number.start < total.end for total in parts):
                 yield number
-        elif number.unit is None:
+        elif number.unit is None or (unit == "degC" and number.unit == "deg"):
             yield number
             if unit == "%" and number.value < 1:
                 yield replace(number, value=100 * number.value, counts=False)
@@ -110,9 +137,9 @@ def in_unit(text: str, unit: str | None) -> Iterator[Number]:
 
 
 @functools.lru_cache(maxsize=64)
-def read_rows(text: str) -> tuple[Row, ...]:
+def read_rows(text: str, *, letters: bool = False) -> tuple[Row, ...]:
     """A text with the spelling of its units put right, and in the ways that all of it can be."""
-    row = Row.of(text)
+    row = Row.of(text, letters=letters)
     plain = row.mended(THOROUGH, numerals=False)
     rows = (plain, *(row.mended(THOROUGH, choice) for choice in CHOICES))
     return tuple({tuple(one.tokens): one for one in rows}.values())
@@ -156,13 +183,39 @@ def _times(text: str) -> Iterator[Number]:
             yield Number(seconds, WRITTEN, one.start(), two.end(), "s", seconds)
 
 
+def _times_said(text: str) -> Iterator[Number]:
+    """ "Twice" and "once" as counts."""
+    for word, start, end in read_rows(text)[0].tokens:
+        if times := TIMES.get(word):
+            yield Number(times, WRITTEN, start, end, said=times, counts=True, stop=end)
+
+
 def _at(row: Row, index: int) -> Iterator[tuple[Number, int]]:
     """The numbers that begin at a token, the plain one first, each with the index behind it."""
     sign = _sign(row, index)
     for value, after in row.numerals(index):
         for number, behind in _measured(row, index, after, -value if sign else value):
+            if _is_of_name(row, index, number):
+                continue
             counts = _counts(row, index, number)
             yield replace(number, start=number.start - sign, counts=counts), behind
+
+
+def _is_of_name(row: Row, index: int, number: Number) -> bool:
+    """Whether figures are of a tag or name: "P-101", "11-TK-7", "T142"; not "for30 min", "x40"."""
+    if not row.word(index)[:1].isdigit():
+        return False
+    if _LEADS_TO_NAME.match(row.text, number.stop):
+        return True
+    name = _NAME.search(row.text, max(0, number.start - LONGEST_NAME), number.start)
+    if not name or name["letters"].lower() in NUMERALS:
+        return False
+    letters = name["letters"]
+    if letters.lower() in ("x", "y") or (letters.lower() in AXES and not name["joint"]):
+        return False
+    return letters.isupper() or not (
+        number.unit or (not name["joint"] and len(letters) > 1 and is_known(letters))
+    )
 
 
 def _sign(row: Row, index: int) -> int:
@@ -186,9 +239,11 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
     start, stop = row.tokens[first].start, row.tokens[max(first, after - 1)].end
     words = [row.word(after + place) for place in range(3)]
 
-    def number(value: float, unit: str | None, said: float, behind: int) -> tuple[Number, int]:
-        end = row.tokens[behind - 1].end
-        return Number(value, WRITTEN if unit else BARE, start, end, unit, said, stop=stop), behind
+    def number(
+        value: float, unit: str | None, said: float, behind: int, added: float = 0.0
+    ) -> tuple[Number, int]:
+        end, rank = row.tokens[behind - 1].end, WRITTEN if unit else BARE
+        return Number(value, rank, start, end, unit, said, stop=stop, added=added), behind
 
     bare = number(value, None, value, after)
     unit, behind = row.unit(after)
@@ -207,14 +262,18 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
             yield number(value * unit[1] / rate, "m/s", value, last)
         else:
             said = value + fraction
-            yield number(said * unit[1], unit[0], said, more)
+            yield number(unit.in_base(said), unit[0], said, more, unit.added)
             time = UNITS.get(row.word(behind)) if unit[0] == "m" else None
             if time and time[0] == "s":  # "one metre second"
                 yield number(value * unit[1] / time[1], "m/s", value, behind + 1)
             if fraction and row.word(more) in WORDS["bare_units"]:
                 yield number(value * unit[1], unit[0], value, behind)
         # "From 22/0 a kilometre", "drift 4 an hour".
-        if words[0] in ("a", "an") and row.word(after - 1)[-1:].isdigit():
+        if (
+            words[0] in ("a", "an")
+            and row.written(after).islower()
+            and row.word(after - 1)[-1:].isdigit()
+        ):
             yield bare
 
 

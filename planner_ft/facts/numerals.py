@@ -5,12 +5,14 @@ twenty metres". Where a row can be read in several ways, each is given, the plai
 
 from __future__ import annotations
 
+import bisect
 import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from planner_ft.facts import lists
-from planner_ft.facts.lists import DIGITS, FRACTIONS, PARTS, SCALES, SMALL, UNITS, WORDS
+from planner_ft.facts.lists import DIGITS, FRACTIONS, PARTS, SCALES, SMALL, UNITS, WORDS, Unit
+from planner_ft.facts.units import unit_at
 from planner_ft.facts.words import corrections
 
 AND, SAID = WORDS["and"], {**DIGITS, **lists.PRONOUNCED}
@@ -31,7 +33,6 @@ _TOKEN = re.compile(
 """A hyphen between letters is no token: "ninety-five" is ninety five."""
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])")
 
-Unit = tuple[str, float]
 Reading = tuple[float, int]
 """A number, and the index behind it."""
 
@@ -45,13 +46,16 @@ class Token(NamedTuple):
 class Row:
     """The tokens of a text: numbers, words in lower case, signs; "5m" are two."""
 
-    def __init__(self, text: str, tokens: list[Token]) -> None:
-        self.text, self.tokens = text, tokens
+    def __init__(self, text: str, tokens: list[Token], *, letters: bool = False) -> None:
+        self.text, self.tokens, self.letters = text, tokens, letters
 
     @classmethod
-    def of(cls, text: str) -> Row:
-        """A text as it stands; "right angle" is one word, "tree minutes" are three."""
-        row = cls(text, [Token(match[0].lower(), *match.span()) for match in _TOKEN.finditer(text)])
+    def of(cls, text: str, *, letters: bool = False) -> Row:
+        """A text as it stands; "right angle" is one word, "tree minutes" are three. With `letters`,
+        a single letter can be a unit.
+        """
+        tokens = [Token(match[0].lower(), *match.span()) for match in _TOKEN.finditer(text)]
+        row = cls(text, tokens, letters=letters)
         for index, (word, start, end) in enumerate(row.tokens):
             before, following = row.word(index - 1), row.word(index + 1)
             if word in lists.PRONOUNCED and (
@@ -70,7 +74,7 @@ class Row:
         """The row with misspelt units, and `numerals`, put right up to a place of the text, by the
         likeliest word or another `choice`: "quartesr", "two hous"; "secotrs" are no seconds.
         """
-        other, behind = Row(self.text, list(self.tokens)), False
+        other, behind = Row(self.text, list(self.tokens), letters=self.letters), False
         for index, (word, start, _end) in enumerate(self.tokens):
             if start >= until:
                 break
@@ -127,7 +131,11 @@ class Row:
             elif following in SCALES or following == "couple":
                 yield from self._in_words(index + 1)
             # A letter alone is rather a name or an article than a unit.
-            elif len(following) > 2 and self.unit(index + 1)[0]:
+            elif (
+                len(following) > 2
+                and (unit := self.unit(index + 1)[0])
+                and (self.letters or unit.base in lists.SPOKEN)
+            ):
                 yield 1.0, index + 1
         elif word in SMALL or word in SCALES:
             yield from self._spoken(index)
@@ -153,11 +161,18 @@ class Row:
 
     def unit(self, index: int) -> tuple[Unit | None, int]:
         """The unit at `index` and the index behind it; words that may stand before are passed."""
-        for _passed in range(PASSED):
-            index += self.word(index) in WORDS["beside_unit"]
+        for passed in range(PASSED + 1):
+            start = self.tokens[index].start if index < len(self.tokens) else len(self.text)
+            if found := unit_at(self.text, start, letters=self.letters):
+                return found[0], self.index_from(found[1])
+            index += passed < PASSED and self.word(index) in WORDS["beside_unit"]
         if self.word(index) == "per" and self.word(index + 1) == "cent":
             return UNITS["percent"], index + 2
         return UNITS.get(self.word(index)), index + 1
+
+    def index_from(self, place: int) -> int:
+        """The first token that begins at a place of the text or behind it."""
+        return bisect.bisect_left(self.tokens, place, key=lambda token: token.start)
 
     def bare_unit(self, index: int) -> bool:
         """Whether a unit without a number begins here: "wait minute at each", "full mnute"."""

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from planner_ft.facts import numbers, places
-from planner_ft.facts.lists import SCALES, SMALL, WORDS
+from planner_ft.facts.lists import SCALES, SMALL, UNITS, WORDS
 from planner_ft.facts.numbers import AS_BEFORE, BARE, IN_PAIR, REREAD, THOROUGH, Number
 from planner_ft.facts.places import Geographic, Position
+from planner_ft.facts.units import base_of, named
 from planner_ft.facts.words import Phrases, Span, is_known, phrases
 from planner_ft.vocabulary import Parameter
 from planner_ft.vocabulary.plans import is_number as is_number
@@ -30,7 +31,8 @@ LARGEST = 1e9
 """Longer rows of digits are no values."""
 FEWEST_WORDS = 5
 """Words below which a text is too short to tell its language by."""
-MEASURES = ("m", "s", "m/s", "degC")
+NO_MEASURES = (None, "deg", "%")
+"""Bases whose numbers may count things, too."""
 WAYPOINT = Parameter("x, y", "position", "m")
 """The two coordinates of a destination, judged together."""
 
@@ -93,7 +95,7 @@ class Facts:
         coordinates are neither.
         """
         if unit not in self._numbers:
-            found = numbers.in_unit(self._local, "deg" if unit == "degC" else unit)
+            found, counted = numbers.in_unit(self._local, unit), base_of(unit) in NO_MEASURES
             spans = [(place.start, place.end) for place in places.read_positions(self._local)]
             certain, inside = _covered(places.written_pairs(self._local)), _covered(spans)
             self._numbers[unit] = tuple(
@@ -101,7 +103,7 @@ class Facts:
                 for one in sorted(
                     dict.fromkeys(found), key=lambda one: (one.value, one.rank, one.start)
                 )
-                if not (one.counts and unit in MEASURES)
+                if not (one.counts and not counted)
                 and one.start not in certain
                 and abs(one.value) < LARGEST
             )
@@ -170,7 +172,7 @@ class Facts:
         )
 
     def _number(self, value: float, parameter: Parameter, tolerance: float) -> Evidence:
-        angle = parameter.unit == "deg"
+        angle = named(parameter.unit) == UNITS["deg"]
         known = self.numbers(parameter.unit)
         found = [number for number in known if near(value, number.value, tolerance)]
         # An arc of more than a circle is no direction: "half round, the south wall too".
@@ -183,7 +185,8 @@ class Facts:
         if not found:
             return UNREAD if self.unread else NOBODY
         best = [number for number in found if number.rank == plainest]
-        plain = plainest != AS_BEFORE and abs(best[0].factor - 1) <= 1e-9
+        plain = plainest != AS_BEFORE and bool(best[0].said)
+        plain = plain and math.isclose(best[0].value, best[0].said)
         kind: Kind = "stated" if plain else "converted" if best[0].said else "derived"
         return Evidence(kind, _mentions(best), plainest)
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from planner_ft.data.stated import step_problems
+from planner_ft.data.stated import completeness_problems, step_problems
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
@@ -66,3 +67,35 @@ def test_what_the_schema_refuses_is_left_to_it(skill: Skill) -> None:
 def test_an_answer_without_steps_has_none_to_check(expected: dict[str, Any]) -> None:
     record = {"task": "KeepStation", "prompt": "Hold.", "parameters": {}, "expected": expected}
     assert list(step_problems(record, USV)) == []
+
+
+def lost(prompt: str, *tags: str) -> list[str]:
+    """What the complete record of a plan that holds at [3, 4] for 30 s lacks of the command."""
+    place = {"target_position": [3, 4]}
+    tasks = [
+        {"title": "Transit", "parameters": place, "task_prompt": "Go to [3, 4]."},
+        {"title": "KeepStation", "parameters": {"duration": 30}, "task_prompt": "Hold 30 s."},
+    ]
+    expected = {"tasks": tasks, "assumptions": [], "constraints": []}
+    record = {"prompt": prompt, "expected": expected, "tags": list(tags)}
+    return list(completeness_problems(record, USV))
+
+
+def test_sayings_and_what_is_only_told_are_no_lost_values() -> None:
+    hold = "Hold for 30 s at [3, 4]"
+    assert lost(f"{hold}, then we call it a day. Handover in an hour.") == []
+    (problem,) = lost(f"{hold}; the battery is down to 18 %.")
+    assert "'18 %' of the command stands in no parameter" in problem and "rule.told" in problem
+    assert lost(f"{hold}; the battery is down to 18 %.", "rule.told") == []
+
+
+def test_a_value_in_a_unit_of_the_vehicle_is_not_lost() -> None:
+    (task,) = [task for task in USV.tasks if task.title == "KeepStation"]
+    (time,) = [item for item in task.parameters if item.name == "duration"]
+    minutes = replace(task, parameters=(replace(time, unit="min"),))
+    others = tuple(minutes if one is task else one for one in USV.tasks)
+    tasks = [{"title": "KeepStation", "parameters": {"duration": 30}, "task_prompt": "Hold."}]
+    expected = {"tasks": tasks, "assumptions": [], "constraints": []}
+    record = {"prompt": "Hold for half an hour.", "expected": expected, "tags": []}
+    assert list(completeness_problems(record, replace(USV, tasks=others))) == []
+    assert list(completeness_problems(record, USV)) != []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -117,3 +118,13 @@ def test_tags_and_tasks_must_agree(titles: list[str], tags: list[str], problem: 
         "expected": {"tasks": [{"title": title, "parameters": {}} for title in titles]},
     }
     assert any(problem in text for text in tag_problems(record, USV))
+
+
+def test_a_search_and_a_transit_are_those_of_the_definition() -> None:
+    """Whatever a vehicle calls them: a plan without them has no such tag."""
+    titles = {USV.locate: "FindThing", USV.transit: "DriveTo"}
+    tasks = tuple(replace(task, title=titles.get(task.title, task.title)) for task in USV.tasks)
+    rover = replace(USV, tasks=tasks, locate="FindThing", transit="DriveTo")
+    plan = {"tasks": [{"title": "FindThing", "parameters": {}, "task_prompt": "Find it."}]}
+    record = {"expected": plan, "tags": ["rule.search", "rule.transit"]}
+    assert list(tag_problems(record, rover)) == ["tag rule.transit needs DriveTo in the plan"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -67,3 +68,32 @@ def test_a_broken_definition_is_all_that_is_said(rover: Path) -> None:
     rover.write_text(rover.read_text().replace('arrival = "none"', 'arrival = "nowhere"'))
     (part,) = check_vehicle(str(rover))
     assert part.state == "wrong" and "arrival = 'nowhere'" in part.text
+
+
+def test_a_folder_is_its_one_definition(rover: Path, tmp_path: Path) -> None:
+    assert check_vehicle(str(rover.parent)) == check_vehicle(str(rover))
+    for source in (tmp_path, tmp_path / "nowhere"):
+        with pytest.raises(PlannerError, match="give the TOML file of a vehicle") as raised:
+            check_vehicle(str(source))
+        assert "--vocabulary" not in str(raised.value)
+
+
+def test_what_a_definition_hardly_means_is_told(rover: Path) -> None:
+    horn = (
+        '[[skill]]\nname = "Horn"\ncategory = "Data"\nrole = "perception"\ndescription = "Horn"\n'
+    )
+    text = rover.read_text().replace('unit = "s"', 'unit = "ticks of a clock"')
+    rover.write_text(f"{text}\n{horn}")
+    first = check_vehicle(str(rover))[0]
+    assert first.state == "ready" and "no task lists the skill Horn" in first.text
+    assert "the unit 'ticks of a clock' is not known" in first.text
+
+
+def test_tags_that_nothing_checks_are_named(rover: Path) -> None:
+    path = rover.parent / "mission" / "train.jsonl"
+    first, *rest = path.read_text().splitlines()
+    record = json.loads(first)
+    record["tags"] = [*record["tags"], "rule.dock"]
+    path.write_text("\n".join([json.dumps(record, separators=(",", ":")), *rest, ""]))
+    text = {part.file: part.text for part in check_vehicle(str(rover))}["mission/"]
+    assert "tags about tasks of other vehicles are not checked: rule.dock" in text

@@ -8,6 +8,7 @@ from typing import Any
 
 from planner_ft.facts import is_number, is_place, normalised
 from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.units import converted
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -127,7 +128,8 @@ def _measured(text: str, unit: str | None) -> float | None:
     found = read_numbers(text) if len(text) <= LONGEST else ()
     if len(found) != 1 or (found[0].start, found[0].end) != (0, len(text)):
         return None
-    return found[0].value if found[0].unit in (None, unit) else None
+    number = found[0]
+    return number.value if number.unit is None else converted(number.value, number.unit, unit)
 
 
 def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:

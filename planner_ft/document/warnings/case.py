@@ -16,6 +16,7 @@ from planner_ft.facts import Input, Number, Position, is_number, is_place, near,
 from planner_ft.facts.numbers import read_numbers, rows_of_sizes
 from planner_ft.facts.places import read_positions, without_geographic
 from planner_ft.facts.rows import positions_of, rows_of
+from planner_ft.facts.units import in_base_units
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills
@@ -123,6 +124,10 @@ class PlanValues:
             if is_number(value) and not (name in ("x", "y") and {"x", "y"} <= values.keys())
         ]
         self.owners = [list(filter(is_number, task["parameters"].values())) for task in tasks]
+        by_name = [command.vocabulary.task[task["title"]].by_name for task in tasks]
+        by_name += [command.vocabulary.skill[skill["name"]].by_name for skill in skills]
+        base = [one for pair in zip(given, by_name, strict=True) for one in in_base_units(*pair)]
+        self.numbers += base
         self.limited = [float(value) for value in self.limits if is_number(value)]
         self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
         places = [tuple(value) for value in own if is_place(value)]
@@ -137,7 +142,8 @@ class PlanValues:
         self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
         spoken = [number for line in texts for number in read_numbers(line)]
         self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
-        self.anywhere = {*_flat(own), *(part for one in spoken for part in (one.value, one.said))}
+        said = (part for one in spoken for part in (one.value, one.said))
+        self.anywhere = {*_flat(own), *base, *said}
         self.anywhere |= set(_ways([*places, *read], command))
         self.texts = " ".join(texts).casefold()
         self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)

@@ -1,0 +1,123 @@
+"""Units of parameters and of texts, and what one of them is in another (units.toml).
+
+Every unit has a base: metres, seconds, degC, Pa, kg ... "L/min" has the base "m3/s".
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from planner_ft.facts.lists import FOLDER, UNITS, Unit
+from planner_ft.vocabulary import Parameter
+
+FEWEST = 4
+"""Letters from which a spelling is a word, in any case and with a plural."""
+LETTER = 1
+COUNT = ""
+"""The base of what is counted."""
+_PER = r"(?:\s?/\s?|\s+(?:per|an?)\s+)"
+
+
+def named(name: str | None) -> Unit | None:
+    """The unit that a definition names; None for one that is not known, and for none."""
+    return _named(name) if name else None
+
+
+@functools.lru_cache(maxsize=256)
+def _named(name: str) -> Unit | None:
+    exact, anyhow = _spellings()
+    name = name.strip()
+    found = exact.get(name) or anyhow.get(name.lower()) or UNITS.get(name.lower())
+    parts = [] if found else re.split(_PER, name, maxsplit=1)
+    if len(parts) == 2 and (above := named(parts[0])) and (below := named(parts[1])):
+        return _ratio(above, below)
+    return found
+
+
+def base_of(name: str | None) -> str | None:
+    """The base of a unit; the name itself where it is not known, None for a count and for none."""
+    unit = named(name)
+    return (unit.base or None) if unit else name
+
+
+def converted(value: float, unit: str | None, other: str | None) -> float | None:
+    """A value in another unit; None where the units are of two kinds."""
+    one, two = named(unit), named(other)
+    if unit == other or not one or not two:
+        return value if unit == other else None
+    return two.of_base(one.in_base(value)) if one.base == two.base else None
+
+
+def in_base_units(values: Mapping[str, Any], known: Mapping[str, Parameter]) -> list[float]:
+    """The numbers among the values of parameters, in base units where theirs is another."""
+    given = [(value, named(known[name].unit)) for name, value in values.items() if name in known]
+    numbers = [(value, unit) for value, unit in given if isinstance(value, int | float)]
+    return [unit.in_base(value) for value, unit in numbers if unit and unit[1:] != (1, 0)]
+
+
+def unit_at(text: str, start: int, *, letters: bool) -> tuple[Unit, int] | None:
+    """The unit of units.toml that a text has at a place, and where it ends; None for none. A single
+    letter is one only with `letters`, or as a part of a rate: "20 L/ha".
+    """
+    match = _pattern(letters).match(text, start)
+    if match is None:
+        return None
+    if match["above"]:
+        above, below = named(match["above"]), named(match["below"])
+        # Metres per second are read elsewhere, and "90 degrees a minute later" is no rate.
+        apart = ("m", "s", "deg", "%") if match["per"].strip() in ("a", "an") else ("m", "s")
+        if above and below and above.base not in apart:
+            return _ratio(above, below), match.end()
+        return None
+    unit = named(match["one"])
+    return (unit, match.end()) if unit else None
+
+
+def _ratio(above: Unit, below: Unit) -> Unit:
+    return Unit(f"{above.base}/{below.base}", above.factor / below.factor)
+
+
+@functools.cache
+def _table() -> list[tuple[str, Unit]]:
+    """Every spelling with its unit."""
+    raw = tomllib.loads((FOLDER / "units.toml").read_text(encoding="utf-8"))
+    return [
+        (spelling.strip(), Unit(base, *map(float, numbers)))
+        for base, rows in raw.items()
+        for factor, spellings, *added in rows
+        for numbers in [(factor, *added)]
+        for spelling in spellings.split(",")
+    ]
+
+
+def _is_word(spelling: str) -> bool:
+    return sum(map(str.isalpha, spelling)) >= FEWEST
+
+
+@functools.cache
+def _spellings() -> tuple[dict[str, Unit], dict[str, Unit]]:
+    """The units by spelling as it stands, and by words in lower case with their plurals."""
+    words = [(spelling.lower(), unit) for spelling, unit in _table() if _is_word(spelling)]
+    plurals = {f"{spelling}s": unit for spelling, unit in words if spelling[-1].isalpha()}
+    return dict(_table()), {**plurals, **dict(words)}
+
+
+@functools.cache
+def _pattern(letters: bool) -> re.Pattern[str]:
+    exact, anyhow = _spellings()
+    said = [name for name in exact if exact[name].base != COUNT and not _is_word(name)]
+    one = [name for name in said if letters or len(name) > LETTER or not name.isalpha()]
+    words = [name for name in anyhow if anyhow[name].base != COUNT]
+    spoken = f"(?i:{_any(words)})"
+    every = f"(?:{_any(said)}|{spoken}|(?i:{_any(list(UNITS))}))"
+    return re.compile(
+        rf"(?:(?P<above>{every})(?P<per>{_PER})(?P<below>{every})|(?P<one>{_any(one)}|{spoken}))(?!\w)"
+    )
+
+
+def _any(names: list[str]) -> str:
+    return "|".join(re.escape(name) for name in sorted(names, key=len, reverse=True))
