@@ -325,8 +325,11 @@ class Drawing(Chosen):
 
 
 def _is_name(text: str) -> bool:
-    """Whether a text has capitals or figures, so that a slip would make it another."""
-    return not text.islower() or any(mark.isdigit() for mark in text)
+    """Whether a text has capitals, figures or an article within, so that a slip or a telegram would
+    make it another.
+    """
+    within = {"a", "an", "the"} & set(text.split()[1:])
+    return not text.islower() or bool(within) or any(mark.isdigit() for mark in text)
 
 
 def _metric(text: str) -> bool:
