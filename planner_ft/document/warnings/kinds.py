@@ -20,7 +20,7 @@ KINDS = tuple(TABLE)
 NOTES = tuple(kind for kind, entry in TABLE.items() if entry["severity"] == "note")
 SERIOUS = tuple(kind for kind in KINDS if kind not in NOTES)
 """Kinds that a plan should not be approved with unread."""
-LONGEST = 60
+LONGEST = 120
 """Characters of the command that are quoted."""
 
 
