@@ -92,7 +92,7 @@ def read_all(text: str, *, letters: bool = False) -> tuple[Number, ...]:
     """
     rows = read_rows(text, letters=letters)
     plain = dict.fromkeys(_plain(rows[0]))
-    others = itertools.chain(_times(text), *map(_every, rows))
+    others = itertools.chain(read_times(text), *map(_every, rows))
     reread = (replace(one, rank=REREAD + (one.rank >= BARE)) for one in others if one not in plain)
     return tuple(sorted((*plain, *dict.fromkeys(reread)), key=lambda number: number.start))
 
@@ -171,7 +171,7 @@ def _every(row: Row) -> list[Number]:
     return _with_shared_units(row.text, found)
 
 
-def _times(text: str) -> Iterator[Number]:
+def read_times(text: str) -> Iterator[Number]:
     """ "2:30" as minutes or hours; "from 11:10 to 11:30" as their difference, over midnight too."""
     times = list(_TIME.finditer(text))
     for one, two in itertools.zip_longest(times, times[1:]):
@@ -195,7 +195,7 @@ def _at(row: Row, index: int) -> Iterator[tuple[Number, int]]:
     sign = _sign(row, index)
     for value, after in row.numerals(index):
         for number, behind in _measured(row, index, after, -value if sign else value):
-            if _is_of_name(row, index, number):
+            if _is_of_name(row, index, number) or _is_of_time(row.text, number):
                 continue
             counts = _counts(row, index, number)
             yield replace(number, start=number.start - sign, counts=counts), behind
@@ -216,6 +216,12 @@ def _is_of_name(row: Row, index: int, number: Number) -> bool:
     return letters.isupper() or not (
         number.unit or (not name["joint"] and len(letters) > 1 and is_known(letters))
     )
+
+
+def _is_of_time(text: str, number: Number) -> bool:
+    """Whether figures are the hours or minutes of "14:30", which are no values by themselves."""
+    times = _TIME.finditer(text, max(0, number.start - 4), number.stop + 4)
+    return any(time.start() <= number.start < time.end() for time in times)
 
 
 def _sign(row: Row, index: int) -> int:

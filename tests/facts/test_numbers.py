@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
-from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.numbers import in_unit, read_numbers
 from planner_ft.vocabulary import Parameter
 
 
@@ -242,3 +242,10 @@ def test_a_misspelt_word_behind_a_number_is_a_unit() -> None:
     radius = Parameter("radius", "number", "m")
     assert read("keep 30 fet off").evidence(9.144, radius).given
     assert not read("keep 30 m off and fet it").evidence(9.144, radius).given
+
+
+def test_figures_of_a_clock_time_are_no_values() -> None:
+    text = "Do nothing until 14:30, then hold at [75, 75]."
+    assert [number.value for number in read_numbers(text)] == [75, 75]
+    assert {14, 30}.isdisjoint(number.value for number in in_unit(text, "s"))
+    assert 150 in [number.value for number in in_unit("Hold for 2:30.", "s")]

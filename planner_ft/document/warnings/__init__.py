@@ -59,7 +59,8 @@ CHECKS: tuple[Check, ...] = (
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     performed.performed,
-    *(said.measures, said.bare_numbers, said.rows, said.uneven_rows, said.unvisited),
+    *(said.measures, said.bare_numbers, said.clock_times),
+    *(said.rows, said.uneven_rows, said.unvisited),
     *(said.positions, said.limits, said.repeats, said.there_and_not, said.misnamed),
     *(values.unread, values.unsaid, values.unsaid_skills),
 )

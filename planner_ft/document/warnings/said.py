@@ -17,7 +17,7 @@ from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings.case import Case, same_place
 from planner_ft.document.warnings.kinds import Warning, quoted, warning
 from planner_ft.facts import Number, is_place, near
-from planner_ft.facts.numbers import neighbours, rows_of_sizes
+from planner_ft.facts.numbers import neighbours, read_times, rows_of_sizes
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Vocabulary
 
@@ -75,6 +75,20 @@ def measures(case: Case) -> Iterator[Warning]:
             yield lost(text[wholes[0].start : wholes[0].end])
         else:
             instead.remove(other)
+
+
+def clock_times(case: Case) -> Iterator[Warning]:
+    """Times such as "14:30" that are in no text of the plan, nor as a length among its values;
+    those of limits are judged by `limits`.
+    """
+    readings = list(read_times(case.text))
+    kept = [(one.start, one.end) for one in readings if case.plan.says(one.value)]
+    for start, end in dict.fromkeys((one.start, one.end) for one in readings if not one.said):
+        words, clause = case.text[start:end], case.clause_at(start)
+        covered = any(first <= start and end <= last for first, last in kept)
+        limit = clause is not None and case.words["limit"].search(clause.text)
+        if case.wants(start) and not (covered or limit or words in case.plan.texts):
+            yield lost(words)
 
 
 def _instead(case: Case) -> list[Number]:
