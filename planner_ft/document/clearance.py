@@ -15,7 +15,7 @@ from planner_ft.document.structures import (
     Allowed,
     Structure,
     fence,
-    is_close,
+    runs_along,
     structures,
 )
 from planner_ft.document.track import Pen, Point, circle_of, point_of
@@ -42,7 +42,7 @@ def cleared(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     allowed, done = fence(document, vocabulary), []
     for before, task, following in zip([None, *tasks], tasks, [*tasks[1:], None], strict=False):
         steps = task.get("skill_sequence")
-        if steps is None or task.get("stale") or is_close(task, vocabulary):
+        if steps is None or task.get("stale") or runs_along(task, vocabulary):
             pen.draw(task)
             done.append(task)
             continue

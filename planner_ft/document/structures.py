@@ -118,18 +118,24 @@ def _margin(task: TaskEntry, vocabulary: Vocabulary) -> float:
 def close_legs(
     document: Mapping[str, Any], legs: Sequence[Leg], vocabulary: Vocabulary
 ) -> Iterator[tuple[str, Structure, float]]:
-    """(task, structure, metres) of every leg that comes too close; docking may."""
+    """(task, structure, metres) of every leg that comes too close; docking may, where the berth
+    lies as close.
+    """
     known = structures(document, vocabulary)
     steering = {task["id"] for task in document["tasks"] if task.get("skill_sequence")}
-    docking = {task["id"] for task in document["tasks"] if is_close(task, vocabulary)}
+    along = {task["id"] for task in document["tasks"] if runs_along(task, vocabulary)}
+    berths = {task["id"]: place for task in document["tasks"] if (place := berth(task, vocabulary))}
     for last, leg in zip([None, *legs], legs, strict=False) if known else ():
-        if leg.kind not in MOVING or leg.task in docking or leg.task not in steering:
+        if leg.kind not in MOVING or leg.task in along or leg.task not in steering:
             continue
+        close = [berths[one.task] for one in (leg, last) if one and one.task in berths]
         for structure in known:
+            if any(structure.blocks(place, place) for place in close):
+                continue
             pairs = itertools.pairwise(leg.points)
             nearest = min(way_off(structure.position, *pair) for pair in pairs)
             ends = [point for point in (leg.points[0], leg.points[-1]) if point == vocabulary.home]
-            if last and last.task in docking and structure.blocks(*(leg.points[0],) * 2):
+            if last and last.task in along and structure.blocks(*(leg.points[0],) * 2):
                 continue
             allowed = min([structure.standoff, *(math.dist(structure.position, at) for at in ends)])
             if nearest < allowed - structure.slack:
@@ -157,10 +163,16 @@ def fence(document: Mapping[str, Any], vocabulary: Vocabulary) -> Allowed:
     return stays
 
 
-def is_close(task: TaskEntry, vocabulary: Vocabulary) -> bool:
-    """Whether a task comes close on purpose: it docks, or passes along a face."""
+def berth(task: TaskEntry, vocabulary: Vocabulary) -> Point | None:
+    """Where a task docks; None for one that does not."""
     known = vocabulary.task.get(task["title"])
-    return known is not None and (known.docks or known.pattern == "pass")
+    return place_of(task, vocabulary) if known is not None and known.docks else None
+
+
+def runs_along(task: TaskEntry, vocabulary: Vocabulary) -> bool:
+    """Whether a task passes along a face, close to it on purpose."""
+    known = vocabulary.task.get(task["title"])
+    return known is not None and known.pattern == "pass"
 
 
 def way_off(point: Point, start: Point, goal: Point) -> float:

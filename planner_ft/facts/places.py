@@ -32,11 +32,14 @@ _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 
 _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
-    r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d)"
+    r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?"
+    r"(?:(?P<whole>\d{2,3})(?P<packed>[0-5]\d\.\d+)(?=\s?,?\s?[NSEW]\b)"
+    r"|(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d))"
     r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
     r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"
-    r"(?P<hemisphere>\s?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?"
+    r"(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?"
 )
+"""`whole` and `packed` are degrees and minutes as receivers send them (NMEA): 4807.038,N."""
 _BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 _WRITTEN_PAIR = re.compile(
     rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)"
@@ -142,25 +145,40 @@ def read_geographic(text: str) -> tuple[Geographic, ...]:
     return tuple(result)
 
 
+def lone_coordinates(text: str) -> list[tuple[int, int]]:
+    """The spans of latitudes and longitudes that stand alone and are no position: "do not go north
+    of 54.3216N". Whole degrees need their hemisphere.
+    """
+    paired = [(place.start, place.end) for place in read_geographic(text)]
+    return [
+        match.span()
+        for match in _COORDINATE.finditer(text)
+        if _is_degrees(match)
+        and (match["lead"] or match["hemisphere"] or "." in match["degrees"])
+        and not any(start <= match.start() < end for start, end in paired)
+    ]
+
+
 def _is_degrees(match: re.Match[str]) -> bool:
-    decimals = len(match["degrees"].partition(".")[2])
+    decimals = len((match["degrees"] or "").partition(".")[2])
     letter = match["lead"] or match["hemisphere"]
     return bool(
         match["word"]
+        or match["packed"]
         or match["minutes"]
         or (match["ring"] and letter)
         or decimals >= DIGITS_OF_DEGREES
-        or (letter and len(letter.strip()) == 1 and decimals >= 2)
+        or (letter and len(letter.strip(" ,")) == 1 and decimals >= 2)
     )
 
 
 def _degrees(match: re.Match[str]) -> tuple[float, str]:
     """The value of a coordinate, and "lat" or "lon" where that is said."""
-    letter = (match["lead"] or match["hemisphere"] or "").strip().lower()
+    letter = (match["lead"] or match["hemisphere"] or "").strip(" ,").lower()
     said = (match["word"] or letter).strip().lower()
     axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
-    degrees, minutes, seconds = (float(match[n] or 0) for n in ("degrees", "minutes", "seconds"))
-    value = degrees + minutes / 60 + seconds / 3600
+    degrees, minutes = match["degrees"] or match["whole"], match["minutes"] or match["packed"]
+    value = float(degrees) + float(minutes or 0) / 60 + float(match["seconds"] or 0) / 3600
     return -value if match["sign"] in _MINUS or letter[:1] in ("s", "w") else value, axis
 
 

@@ -122,6 +122,18 @@ def test_berths_and_areas_that_are_gone_over_are_no_structures() -> None:
     assert waypoints(plan)[-1] == [5, 5]
 
 
+@pytest.mark.parametrize(("head", "kept"), [((40.0, 42.0), True), ((-8.0, 4.0), False)])
+def test_docking_keeps_clear_of_all_but_what_the_berth_is_at(
+    head: tuple[float, float], kept: bool
+) -> None:
+    berth = task("DockingApproach", {"goal_position": [-6, -4]}, [go(-6, -4)], "Dock at [-6, -4].")
+    plan = document([transit(80, 80), berth, transit(-40, 60)], chart={"breakwater head": head})
+    away = nearest(plan, [*head])
+    assert (away >= 9) is kept and "structure-close" not in kinds(plan)
+    steps = plan["tasks"][1]["skill_sequence"]
+    assert (len(steps) > 1) is kept and steps[-1]["navigation_skill"]["parameters"]["x"] == -6
+
+
 def test_a_ring_is_begun_on_the_near_side_unless_a_side_is_named() -> None:
     ring = [(60, 30), (60, 40), (50, 40), (40, 40), (40, 30), (40, 20), (50, 20), (60, 20)]
     survey = task(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
-from planner_ft.facts.places import read_positions
+from planner_ft.facts.places import lone_coordinates, read_positions
 
 
 def stated(text: str, position: list[float]) -> bool:
@@ -78,6 +78,8 @@ def test_numbers_in_a_row_are_no_third_place() -> None:
         ("lat 54.32 lon 10.14", 54.32, 10.14),
         ("longitude 10.14, latitude -54.32", -54.32, 10.14),
         ("at 33.85 S 151.21 E", -33.85, 151.21),
+        ("at 4807.038N 01131.000E", 48.1173, 11.516667),
+        ("at 4807.038,S,01131.000,W", -48.1173, -11.516667),
     ],
 )
 def test_geographic_positions_are_degrees_and_nothing_else(
@@ -144,6 +146,20 @@ def test_degrees_with_minutes_and_seconds_are_read_whole() -> None:
     (place,) = facts.geographic
     assert (place.latitude, place.longitude) == pytest.approx((54.321667, 10.141667))
     assert facts.unread == () and facts.positions == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("do not go north of 54.3216N, the range begins there", ["54.3216N"]),
+        ("stay west of longitude 10.14", ["longitude 10.14"]),
+        ("go to 54.3217 N, 10.1412 E", []),
+        ("go to 1234.5 then 500 m north", []),
+        ("go to 40E, 25N", []),
+    ],
+)
+def test_a_coordinate_with_a_hemisphere_may_stand_alone(text: str, words: list[str]) -> None:
+    assert [text[start:end].strip() for start, end in lone_coordinates(text)] == words
 
 
 def test_a_time_of_day_is_no_position() -> None:

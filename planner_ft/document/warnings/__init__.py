@@ -57,12 +57,13 @@ CHECKS: tuple[Check, ...] = (
     *(space.broken_limits, space.close_structures, route.open_places, route.order),
     *(space.boundaries, space.area_and_reach, route.endurance, route.missing_return),
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
+    asked.against_itself,
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     performed.performed,
     *(said.measures, said.bare_numbers, said.clock_times),
     *(said.rows, said.uneven_rows, said.unvisited),
     *(said.positions, said.limits, said.repeats, said.there_and_not, said.misnamed),
-    *(values.unread, values.unsaid, values.unsaid_skills),
+    *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

@@ -24,7 +24,7 @@ from planner_ft.vocabulary.plans import step_skills
 ROW, CORNERS = 3, 3
 FULL = 360.0
 STEM = 5
-LONGER = re.compile(r"[a-z]{4,}")
+LONGER = re.compile(r"[a-z]{4,}", re.IGNORECASE)
 """Words that say something, and the letters by which one is found again."""
 
 
@@ -173,9 +173,8 @@ class PlanValues:
         return fewest if len(fewest) < len(row) else []
 
     def speaks_of(self, words: str) -> bool:
-        """Whether a text of the plan has one of the longer words, or there are none."""
-        longer = LONGER.findall(words.casefold())
-        return not longer or any(word[:STEM] in self.texts for word in longer)
+        """Whether a text of the plan has one of the longer words."""
+        return any(word[:STEM] in self.texts for word in LONGER.findall(words.casefold()))
 
     def has(self, place: Position) -> bool:
         """Whether a position is anywhere in the plan, or its numbers are values of it."""

@@ -14,10 +14,11 @@ from collections.abc import Iterator
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.track import Point, place_of, shown
-from planner_ft.document.warnings.case import Case, same_place
+from planner_ft.document.warnings.case import LONGER, Case, same_place
 from planner_ft.document.warnings.kinds import Warning, quoted, warning
 from planner_ft.facts import Number, is_place, near
 from planner_ft.facts.numbers import neighbours, read_times, rows_of_sizes
+from planner_ft.facts.places import lone_coordinates
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Vocabulary
 
@@ -166,7 +167,9 @@ def _is_kept(clause: Clause, case: Case) -> bool:
     if not said and away:
         limited = [value for value in plan.limits if is_place(value)]
         if not inside:
-            return plan.speaks_of(clause.text[away.end() :])
+            # "Keep clear of it" names nothing: some text must keep the vehicle away.
+            thing, told = clause.text[away.end() :], case.words["away"].search(plan.texts)
+            return plan.speaks_of(thing) if LONGER.search(thing) else told is not None
         return all(any(same_place(place, at) for at in limited) for place in inside)
     whole = case.words["whole_limit"].search(clause.text)
     known = plan.limited if whole else [*plan.limited, *plan.numbers]
@@ -198,11 +201,15 @@ def repeats(case: Case) -> Iterator[Warning]:
 
 
 def positions(case: Case) -> Iterator[Warning]:
-    """Single positions that the plan has nowhere."""
+    """Single positions, and latitudes and longitudes alone, that the plan has nowhere."""
     in_rows = {place for row in case.rows for place in row}
     for place in case.positions:
         if case.wants(place.start) and place not in in_rows and not case.plan.has(place):
             yield lost(case.text[place.start : place.end])
+    for start, end in lone_coordinates(case.text):
+        words = case.text[start:end].strip()
+        if words.casefold() not in case.plan.texts:
+            yield lost(words)
 
 
 def rows(case: Case) -> Iterator[Warning]:

@@ -20,11 +20,14 @@ from planner_ft.facts import (
     read_input,
     unknown_words,
 )
+from planner_ft.facts.words import edit_distance, words
 from planner_ft.planning.passes import pass_ends
 from planner_ft.planning.shapes import shape_points
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
+EDITS = 2
+"""Edits by which a word of a task prompt may differ from one of the command."""
 BARE = re.compile(r"[-−–]?\d+(?:\.\d+)?")
 """A number without a unit."""
 
@@ -55,6 +58,27 @@ def unsaid(case: Case) -> Iterator[Warning]:
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
                 yield warning("contradiction", "prompt", **about, words=words)
+
+
+def unheard(case: Case) -> Iterator[Warning]:
+    """Words of proposed task prompts that are not known, nor in the command or the definition of
+    the task: they may name another thing.
+    """
+    proposed = {own["id"]: own for own in case.document.get("proposed", {"tasks": ()})["tasks"]}
+    for task in (one for one in case.tasks if one["id"] in proposed):
+        told = f"{case.command} {case.vocabulary.task[task['title']].description}".casefold()
+        unknown = dict.fromkeys(unknown_words(proposed[task["id"]]["task_prompt"])[0])
+        said, prompt = words(told), task["task_prompt"].casefold()
+        made = [word for word in unknown if word in prompt and not _is_heard(word, told, said)]
+        if made:
+            listed = ", ".join(f'"{word}"' for word in made)
+            yield warning("value-not-said", "word", task, about=" ".join(made), words=listed)
+
+
+def _is_heard(word: str, told: str, said: list[str]) -> bool:
+    """Whether a word stands in a text, in parts or spelt a little otherwise."""
+    parts = all(part in told for part in re.split(r"[-'.]", word))
+    return parts or any(edit_distance(word, other, EDITS) <= EDITS for other in said)
 
 
 def _contradicts(prompt: Facts, value: Any, parameter: Parameter) -> bool:

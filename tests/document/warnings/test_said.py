@@ -55,6 +55,20 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (AREA, [to(100, 50), to(0, 0)], (FENCE,), None),
         (AREA, [to(100, 50), to(0, 200), to(200, 0), to(0, 0)], (), "limit-lost"),
         (PLATFORM, [to(100, 0)], (), "limit-lost"),
+        (
+            "Go to [0, 90]. A wreck is on your track, keep clear of it.",
+            [to(0, 90)],
+            (),
+            "limit-lost",
+        ),
+        ("Go to [0, 90]. Keep clear of it.", [to(0, 90)], ("Keep clear of the wreck.",), None),
+        ("Go to [9, 9], but not north of 54.3216N.", [to(9, 9)], (), "value-lost"),
+        (
+            "Go to [9, 9], but not north of 54.3216N.",
+            [to(9, 9)],
+            ("Stay south of 54.3216N.",),
+            None,
+        ),
         (PLATFORM, [to(100, 0)], (AWAY,), None),
         (PLATFORM, [to(100, 0)], ("Take care near the platform at 70 m.",), "limit-lost"),
         ("Go to [9, 9] and be back within 20 minutes.", [to(9, 9), hold(1200)], (), "limit-lost"),
@@ -85,6 +99,9 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle it at 9 m, then home. Actually 20 will do.", [orbit(360), to(0, 0)], (), None),
         ("Circle it at 9 m, then home.", [orbit(360), to(0, 0)], (), "value-lost"),
         ("Drift at 5,5. No drift after all.", [to(5, 5), drift()], (), "contradiction"),
+        ("Drift at 5,5.", [to(5, 5), drift()], ("No drift is made.",), "contradiction"),
+        ("Drift at 5,5.", [to(5, 5), drift()], ("The drift must be slow.",), None),
+        ("Go to 5,5.", [to(5, 5)], ("No drift is made.",), None),
         ("Don't drift at 5,5 yet. Then drift.", [to(5, 5), drift()], (), None),
         ("Hold a minute at 1,9, 2,9 and 3,9.", [*at(1), *at(2), *at(3)], (), None),
         ("Hold a minute at 1,9, 2,9 and 3,9.", [*at(1), *at(2), to(3, 9)], (), "value-lost"),
@@ -100,6 +117,18 @@ def test_what_is_lost_is_told(
     command: str, tasks: list[dict[str, Any]], limits: tuple[str, ...], lost: str | None
 ) -> None:
     assert kinds(command, *tasks, limits=limits) == ({lost} if lost else set())
+
+
+@pytest.mark.parametrize(
+    ("prompt", "made"),
+    [("Inspect reliping at [9, 9].", ["reliping"]), ("Inspect the Durius at [9, 9].", []),
+     ("Inspect the durios.", []), ("Inspect the buoy.", [])],
+)  # fmt: skip
+def test_words_that_nobody_said_are_told(prompt: str, made: list[str]) -> None:
+    survey = task("SurveyTarget", {"target_position": [9, 9]}, None, prompt)
+    plan = document([survey], command="Inspect the Durius at 9,9.")
+    told = [one["text"] for one in plan["warnings"] if "its prompt says" in one["text"]]
+    assert [word in "".join(told) for word in made] == [True] * len(told)
 
 
 @pytest.mark.parametrize(
