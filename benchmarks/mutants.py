@@ -1,8 +1,9 @@
 """Mutation testing of a part, by a sample: small faults that its tests should notice.
 
-    pip install coverage; python benchmarks/mutants.py 40 'planner_ft/facts/*.py' tests/facts
+    pip install coverage; python benchmarks/mutants.py 40 'planner_ft/facts/**/*.py' tests/facts
 
 changes one operator, number or condition at a time, in a copy, and prints what no test notices.
+SEED=1 and so on in the environment draws others. A change with which the tests hang is noticed.
 """
 
 from __future__ import annotations
@@ -14,8 +15,10 @@ import os
 import random
 import re
 import shutil
+import signal
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import Any
 
@@ -57,29 +60,35 @@ class Tests:
         self.first, self.coverage = first, coverage
 
     def pytest_collection_modifyitems(self, items: list[Any]) -> None:
-        items.sort(key=lambda item: item.nodeid not in self.first)
+        slow = {item.nodeid for item in items if item.get_closest_marker("browser")}
+        items.sort(key=lambda item: (item.nodeid not in self.first, item.nodeid in slow))
 
     def pytest_runtest_setup(self, item: Any) -> None:
         self.coverage and self.coverage.switch_context(item.nodeid)
 
-    def succeed(self, files: list[str]) -> bool:
-        """Whether the tests of the files pass, in a process of their own."""
+    def succeed(self, files: list[str], seconds: float = 0) -> bool:
+        """Whether the tests of the files pass in time (0: any), in processes of their own."""
         if child := os.fork():
-            return os.waitpid(child, 0)[1] == 0
+            passed = os.waitpid(child, 0)[1] == 0
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(child, signal.SIGKILL)
+            return passed
+        os.setpgrp()
+        signal.alarm(int(seconds))
         [os.dup2(os.open(os.devnull, os.O_WRONLY), stream) for stream in (1, 2)]
         with self.coverage.collect() if self.coverage else contextlib.nullcontext():
             code = pytest.main(["-x", "-n0", "-pno:cacheprovider", *files], plugins=[self])
         os._exit(int(code) or int(bool(self.coverage and self.coverage.save())))
 
 
-def survives(file: Path, at: int, tests: list[str], lines: Any) -> str | None:
-    """The mutant in words if the tests pass with it."""
+def survives(file: Path, at: int, tests: list[str], lines: Any, seconds: float) -> str | None:
+    """The mutant in words if the tests pass with it, in so many seconds."""
     tree = ast.parse(text := file.read_text("utf-8"))
     node: Any = list(ast.walk(tree))[at]
     first = {*lines.contexts_by_lineno(str(file.resolve())).get(node.lineno, [])} - {""}
     before, _ = ast.unparse(node), mutate(node)
     file.write_text(ast.unparse(tree), "utf-8")
-    alive = Tests(first).succeed(sorted({one.split("::")[0] for one in first}) or tests)
+    alive = Tests(first).succeed(sorted({one.split("::")[0] for one in first}) or tests, seconds)
     file.write_text(text, "utf-8")
     return f"{file}:{node.lineno}: {before} -> {ast.unparse(node)}"[:200] if alive else None
 
@@ -93,9 +102,15 @@ if __name__ == "__main__":
         sys.dont_write_bytecode = True
         files = sorted(Path().glob(sources))
         noted = coverage.Coverage(".lines", include=[str(file.resolve()) for file in files])
+        began = time.monotonic()
         assert Tests(set(), noted).succeed(tests), "the tests fail without a fault"
         (lines := coverage.CoverageData(".lines")).read()
         every = [place for file in files for place in places(file)]
-        drawn = random.Random(0).sample(every, int(count))
-        alive = [text for place in drawn if (text := survives(*place, tests, lines))]
-        print(*alive, f"{len(drawn) - len(alive)} of {count} are noticed", sep="\n")
+        drawn = random.Random(int(os.environ.get("SEED", "0"))).sample(every, int(count))
+        limit = 60 + 2 * (time.monotonic() - began)
+        alive = 0
+        for place in drawn:
+            if text := survives(*place, tests, lines, limit):
+                print(text, flush=True)
+                alive += 1
+        print(f"{len(drawn) - alive} of {count} are noticed")
