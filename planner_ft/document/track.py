@@ -230,7 +230,7 @@ class Pen:
         heading = self.heading + (by := _number(motion.value("angle", given), 0.0))
         if motion.kind == "turn-to":
             heading = _number(motion.value("heading", given), self.heading)
-            by = (heading - self.heading + 180) % 360 - 180
+            by = math.remainder(heading - self.heading, 360)
         self.heading = heading % 360
         rate = self.vehicle.get("turn_rate")
         self._stay("turn", abs(by) / rate if rate else None)

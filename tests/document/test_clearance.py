@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import Any
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from planner_ft.document import apply
 from planner_ft.document.clearance import way_round
 from planner_ft.document.ontology import named_places
-from planner_ft.document.structures import fence, structures, way_off
+from planner_ft.document.structures import Structure, fence, structures, way_off
 from planner_ft.document.track import track
 from tests.documents import USV, document, step, task
 
@@ -208,3 +209,163 @@ def test_a_row_of_positions_behind_things_is_of_these_things() -> None:
     found = [(words, place.x) for words, place in named_places(command, USV)]
     assert found == [("the cages", 100), ("the cages", 130), ("the cages", 160)]
     assert len(list(named_places("Go by the buoy at 100,20, 130,20 and 160,20.", USV))) == 1
+
+
+BUOY = Structure("buoy", (50.0, 0.0), 10.0)
+
+
+@pytest.mark.parametrize(
+    ("point", "metres"),
+    [((50, 7), 7), ((-3, 4), 5), ((103, -4), 5), ((0, 0), 0), ((100, 0), 0), ((20, -2.5), 2.5)],
+)
+def test_how_far_a_point_is_off_a_leg(point: tuple[float, float], metres: float) -> None:
+    assert way_off(point, (0, 0), (100, 0)) == metres
+    assert way_off((3, 4), (0, 0), (0, 0)) == 5
+
+
+@pytest.mark.parametrize(
+    ("standoff", "y", "blocked"),
+    [(10, 9.49, True), (10, 9.5, False), (400, 397.9, True), (400, 398, False), (10, -9, True)],
+)
+def test_a_leg_may_come_half_a_metre_or_half_a_hundredth_closer(
+    standoff: float, y: float, *, blocked: bool
+) -> None:
+    assert Structure("", (50, 0), standoff).blocks((0, y), (100, y)) is blocked
+
+
+def test_a_full_way_round_has_eight_corners_half_a_metre_beyond_the_standoff() -> None:
+    corners = BUOY.corners()
+    assert len(corners) == 8 and corners[0][0] == 50 and corners[2][1] == pytest.approx(0)
+    sides = list(itertools.pairwise([*corners, corners[0]]))
+    assert [way_off(BUOY.position, *side) for side in sides] == pytest.approx([10.5] * 8)
+    assert corners[0][1] > 0 and corners[2][0] > 50
+
+
+def test_the_shortest_way_round_is_taken_and_none_where_one_is_within() -> None:
+    def free(_start: Any, _goal: Any) -> bool:
+        return True
+
+    north = way_round((0, 1), (100, 1), [BUOY], free)
+    south = way_round((0, -1), (100, -1), [BUOY], free)
+    assert {y > 0 for _x, y in north} == {True} and {y > 0 for _x, y in south} == {False}
+    way = [(0.0, 1.0), *north, (100.0, 1.0)]
+    assert sum(itertools.starmap(math.dist, itertools.pairwise(way))) == pytest.approx(
+        102.126, abs=0.01
+    )
+    assert not any(BUOY.blocks(*leg) for leg in itertools.pairwise(way))
+    assert way_round((0, 20), (100, 20), [BUOY], free) == []
+    assert way_round((45, 0), (100, 0), [BUOY], free) == []
+    assert way_round((0, 0), (55, 0), [BUOY], free) == []
+    beside = Structure("", (50.0, 16.0), 10.0)
+    way = [(0.0, 1.0), *way_round((0, 1), (100, 1), [BUOY, beside], free), (100.0, 1.0)]
+    assert not any(one.blocks(*leg) for leg in itertools.pairwise(way) for one in (BUOY, beside))
+    only_north = way_round(
+        (0, -1), (100, -1), [BUOY], lambda start, goal: min(start[1], goal[1]) > -2
+    )
+    assert only_north and all(y > 0 for _x, y in only_north)
+
+
+def test_steps_that_were_added_or_moved_are_marked_and_others_keep_their_marks() -> None:
+    plan = document([transit(100, 0)], chart={"mast": (50.0, 0.0)})
+    steps, marks = plan["tasks"][0]["skill_sequence"], plan["tasks"][0]["added"]
+    assert [mark["step"] for mark in marks] == list(range(len(steps) - 1))
+    assert {(mark["role"], mark["name"], mark["kind"]) for mark in marks} == {
+        ("navigation", "GoToXY", "clearance")
+    }
+    assert {mark["note"] for mark in marks} == {"keeps clear of a structure"}
+    points = [point for at in waypoints(plan) for point in at]
+    assert points == [round(point, 1) for point in points]
+    text = "The vehicle keeps at least 5 m from every obstacle."
+    plan = document([transit(100, 0)], chart={"mast": (50.0, 0.0)}, constraints=[text])
+    limited = [mark for mark in plan["tasks"][0]["added"] if mark["kind"] == "limit"]
+    assert [mark["step"] for mark in limited] == list(
+        range(len(plan["tasks"][0]["skill_sequence"]))
+    )
+    near = document([transit(60, 0, "Go to the buoy at [60, 0].")])
+    (mark,) = near["tasks"][0]["added"]
+    assert (mark["step"], mark["note"]) == (0, "ends at the stand-off")
+
+
+@pytest.mark.parametrize(
+    ("beside", "moved"), [(0.0, True), (0.5, True), (0.7, False), (-0.7, False)]
+)
+def test_a_waypoint_within_half_a_metre_of_a_structure_is_the_structure(
+    beside: float, *, moved: bool
+) -> None:
+    plan = document([transit(100 + beside, 0)], chart={"mast": (100.0, 0.0)})
+    assert (waypoints(plan) == [[90, 0]]) is moved
+    assert ("structure-close" in kinds(plan)) is not moved
+
+
+def test_from_home_a_structure_at_home_is_left_to_the_west() -> None:
+    plan = document([transit(0, 3, "Go to the buoy at [0, 3].")])
+    assert waypoints(plan) == [[0, -7]]
+
+
+def standoffs(*tasks: dict[str, Any], **planned_as: Any) -> dict[str, float]:
+    return {one.name: one.standoff for one in structures(document(tasks, **planned_as), USV)}
+
+
+def test_the_standoff_is_the_limits_the_tasks_or_the_vehicles_and_never_below_the_least() -> None:
+    ring = {"center": [90, 0]}
+    go = transit(50, 0, "Go to the mast at [50, 0].")
+    far = "The vehicle stays at least 30 m from the mast at [50, 0]."
+    farther = far.replace("30", "40")
+    assert standoffs(go) == {"the mast": 10}
+    assert standoffs(go, constraints=[far]) == {"the mast": 30}
+    assert standoffs(go, constraints=[farther, far]) == {"the mast": 40}
+    every = [f"The vehicle keeps at least {far} m from every obstacle." for far in (15, 12)]
+    assert standoffs(go, constraints=every) == {"the mast": 15}
+    assert standoffs(go, constraints=[far, every[0]]) == {"the mast": 30}
+    assert standoffs(task("PerformOrbit", {**ring, "radius": 7}, [])) == {"[90, 0]": 7}
+    both = [task("PerformOrbit", {**ring, "radius": radius}, []) for radius in (7, 9)]
+    assert standoffs(*both) == {"[90, 0]": 7}
+    assert standoffs(task("PerformOrbit", ring, [])) == {"[90, 0]": 10}
+    plan = document([task("PerformOrbit", ring, [])])
+    plan["vehicle"] = {**plan["vehicle"], "stand_off": 4}
+    assert structures(plan, USV)[0].standoff == 4
+    plan["vehicle"] = None
+    assert structures(plan, USV)[0].standoff == 10
+
+
+def test_what_the_vehicle_looks_at_from_where_it_went_is_a_structure() -> None:
+    sweep = task("BoatLandingClearanceSweep", {}, [])
+    assert standoffs(transit(70, 0), sweep) == {"[70, 0]": 10}
+    assert standoffs(transit(70, 0), task("KeepStation", {}, [])) == {}
+    assert standoffs(transit(0, 0), sweep) == {}
+    home = task("PerformOrbit", {"center": [0, 0], "radius": 5}, [])
+    assert standoffs(home) == {}
+    placed = {**document([transit(70, 0)]), "located": {"wreck": [8, 8], "middle": [9, 9]}}
+    assert [(one.name, one.position) for one in structures(placed, USV)] == [("wreck", (8, 8))]
+
+
+@pytest.mark.parametrize(("beside", "found"), [(0.5, 1), (0.7, 2)])
+def test_a_thing_that_the_prompt_puts_beside_the_place_is_at_the_place(
+    beside: float, found: int
+) -> None:
+    ring = {"center": [90, 0], "radius": 7}
+    words = f"Circle the mast at [{90 + beside}, 0] at 7 m."
+    named = standoffs(task("PerformOrbit", ring, [], words))
+    assert ("the mast" in named) is (found == 1)
+
+
+@pytest.mark.parametrize(
+    ("leg", "kept"),
+    [
+        ([(0, 0), (40, 0)], True),
+        ([(0, 0), (50.4, 0)], True),
+        ([(0, 0), (50.6, 0)], False),
+        ([(0, 0), (30, 19.4)], True),
+        ([(0, 0), (30, 21)], False),
+        ([(20, 40), (40, 40)], True),
+        ([(10, 40), (25, 40)], True),
+    ],
+)
+def test_a_fence_and_a_closed_area_are_kept_to_half_a_metre(leg: Any, *, kept: bool) -> None:
+    texts = [
+        "The vehicle stays inside [-50, -50], [50, -50], [50, 50], [-50, 50].",
+        "The vehicle stays outside [25, 19], [35, 19], [35, 29], [25, 29].",
+    ]
+    assert fence(document([transit(9, 9)], constraints=texts), USV)(*leg) is kept
+    alone = fence(document([transit(9, 9)], constraints=texts[1:]), USV)
+    assert alone((0, 0), (60, 0)) and not alone((0, 0), (30, 25))

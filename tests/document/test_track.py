@@ -182,3 +182,150 @@ def test_arcs_one_after_the_other_go_on_smoothly(side: int) -> None:
     whole, parts = drawn(180), drawn(60, 120)
     assert parts.legs[-1].points[-1] == pytest.approx(whole.legs[-1].points[-1])
     assert math.dist(*(whole.legs[-1].points[place] for place in (0, -1))) == pytest.approx(20)
+
+
+ARC = {"target_feature": "name board"}
+"""A task of the camera: it has no centre."""
+
+
+def turned(*headings: float, skill: str = "RotateToHeading", key: str = "heading") -> list[Any]:
+    path = of(task("KeepStation", {}, [step(skill, {key: one}) for one in headings]))
+    return [leg.seconds for leg in path.legs]
+
+
+def test_a_turn_takes_the_shorter_way_and_a_nudge_the_way_that_it_says() -> None:
+    assert turned(90, 350, 10, 10, -10, 359) == [4.5, 5, 1, 0, 1, 0.45]
+    assert turned(180, 0) == [9, 9]
+    assert turned(270, -45, 10, skill="NudgeYaw", key="delta_yaw") == [13.5, 2.25, 0.5]
+
+
+@pytest.mark.parametrize(
+    ("skill", "given", "to"),
+    [
+        ("GoToXY", {"x": 0, "y": 10}, (10, 20)),
+        ("GoToXY", {"x": 10, "y": 0}, (20, -10)),
+        ("GoToXY", {"x": 0, "y": 10, "yaw": 90}, (10, 0)),
+        ("GoToXY", {"x": 0, "y": 0}, (10, 10)),
+        ("RotateToHeading", {"heading": -90}, (-10, 10)),
+        ("NudgeYaw", {"delta_yaw": 180}, (-10, -10)),
+        ("StationKeep", {"time": 9}, (10, 10)),
+    ],
+)
+def test_a_curve_begins_where_the_vehicle_points(
+    skill: str, given: dict[str, float], to: tuple[float, float]
+) -> None:
+    steps = [step(skill, given), step("ArcTurn", {"radius": 10, "delta_yaw": 90})]
+    assert of(task("GlareFreeApproach", ARC, steps)).legs[-1].points[-1] == pytest.approx(to)
+
+
+@pytest.mark.parametrize(
+    ("angle", "points", "end"),
+    [
+        (5, 2, (0.038, 0.872)),
+        (10, 2, (0.152, 1.736)),
+        (11, 3, (0.184, 1.908)),
+        (360, 37, (0, 0)),
+        (3600, 361, (0, 0)),
+        (36000, 361, (0, 0)),
+        (-3690, 361, (0, 0)),
+        (0, 2, (0, 0)),
+    ],
+)
+def test_a_curve_has_a_point_each_ten_degrees_for_ten_turns_and_its_whole_length(
+    angle: float, points: int, end: tuple[float, float]
+) -> None:
+    curve = step("ArcTurn", {"radius": 10, "delta_yaw": angle})
+    (leg,) = of(task("GlareFreeApproach", ARC, [curve])).legs
+    assert len(leg.points) == points and leg.points[-1] == end
+    assert leg.metres == pytest.approx(math.radians(abs(angle)) * 10)
+
+
+def test_a_circle_is_reached_straight_and_has_the_vehicles_angle_without_one() -> None:
+    given = {"center": [0, 100], "radius": 10}
+    ring = step("ArcTurn", {"radius": 10})
+    path = of(task("PerformOrbit", given, [ring, step("ArcTurn", {"radius": 12})]))
+    first, second = path.legs
+    assert first.points[:2] == ((0, 0), (0, 90)) and first.points[-1] == (0, 90)
+    assert first.metres == pytest.approx(90 + 20 * math.pi)
+    assert second.points[:2] == ((0, 90), (0, 88))
+    assert path.open == ()
+    on_it = of(transit(0, 90), task("PerformOrbit", given, [ring])).legs[-1]
+    assert len(on_it.points) == 37 and on_it.metres == pytest.approx(20 * math.pi)
+    half = {**document([task("PerformOrbit", given, [ring])])}
+    half["vehicle"] = {**half["vehicle"], "orbit_angle": 180}
+    assert track(half, USV).legs[0].points[-1] == (0, 110)
+    for steps in ([step("ArcTurn", {"radius": 5})], [step("ArcTurn", {"delta_yaw": 90})]):
+        assert of(task("GlareFreeApproach", ARC, steps)).open == ("t1",)
+
+
+def test_where_the_vehicle_is_after_a_task_that_is_not_known_in_full() -> None:
+    hold = task("KeepStation", {"duration": 60}, None)
+    survey = task("SurveyTarget", {"target_position": [30, 40], "radius": 5}, None)
+    search = task("SearchAndDetect", {"target_description": "buoy"}, None)
+    path = of(transit(3, 4), hold, transit(3, 8))
+    assert [leg.metres for leg in path.legs] == [5, 4] and path.end == (3, 8)
+    assert path.open == ("t2",)
+    path = of(survey, transit(30, 50))
+    assert [leg.metres for leg in path.legs] == [10]
+    path = of(search, search, transit(30, 50))
+    assert path.legs == () and path.open == ("t1", "t2", "t3") and path.end == (30, 50)
+    unknown = task("KeepStation", {}, [step("GoToXY", {"x": 3, "y": 4}), step("DetectObjects")])
+    assert of(unknown, search, unknown).open == ("t1", "t2", "t3")
+    assert of(unknown, search, hold).legs[0].metres == 5
+
+
+def test_holds_where_the_vehicle_is_not_known_have_no_point() -> None:
+    search = task("SearchAndDetect", {"target_description": "buoy"}, None)
+    path = of(search, task("KeepStation", {}, [step("StationKeep", {"time": 9})]))
+    assert [(leg.points, leg.metres, leg.seconds) for leg in path.legs] == [((), 0, 9)]
+    assert path.last((1, 2)) == (1, 2) and of(transit(5, 5)).last((1, 2)) == (5, 5)
+
+
+def test_legs_are_found_by_task_and_step_and_named_by_their_skill() -> None:
+    path = of(transit(1, 0), transit(2, 0, [step("StationKeep"), step("GoToXY", {"x": 2, "y": 0})]))
+    assert [(leg.task, leg.step, leg.skill) for leg in path.of("t2")] == [
+        ("t2", 0, "StationKeep"),
+        ("t2", 1, "GoToXY"),
+    ]
+    assert [leg.metres for leg in path.of("t2", 1)] == [1] and path.of("t1", 1) == []
+    asked = of(transit(1, 0) | {"skill_sequence": None}).legs[0]
+    assert (asked.task, asked.step, asked.skill) == ("t1", 0, "")
+
+
+@pytest.mark.parametrize(
+    ("tasks", "told"),
+    [
+        ([transit(0.3, 0.44)], {"away": 0.5, "length": 0.5, "seconds": 0}),
+        ([transit(3, 4), transit(0, 0)], {"length": 10, "seconds": 7}),
+        ([transit(0.03, 0)], {"length": 0, "seconds": 0}),
+        (
+            [transit(7.5, 0), task("KeepStation", {}, [step("StationKeep", {"time": 100})])],
+            {"away": 7.5, "length": 7.5, "seconds": 105},
+        ),
+    ],
+)
+def test_the_estimate_is_in_tenths_of_metres_and_seconds(tasks: Any, told: Any) -> None:
+    plan = document(tasks)
+    assert estimate(plan, track(plan, USV)) == {**told, "open": []}
+    home = estimate(plan, track(plan, USV), (7.5, 0.0))
+    assert ("away" in home) == (track(plan, USV).end != (7.5, 0))
+
+
+def test_boundaries_and_circles_say_their_task_step_and_arc() -> None:
+    corners = [[0, 0], [9, 0], [9, 9]]
+    fenced = step("GoToXY", {"x": 1, "y": 1})
+    fenced["filter_skills"] = [
+        {"name": "ObstacleAvoidance", "parameters": {"min_distance": 5}},
+        {"name": "BoundaryEnforcement", "parameters": {"poly_coords": corners}},
+        {"name": "BoundaryEnforcement", "parameters": {}},
+    ]
+    around = {"center": [1, 1], "radius": 4, "arc": 90}
+    path = of(transit(5, 5, []), task("PerformOrbit", around, [step("StationKeep"), fenced]))
+    assert [(one.task, one.step) for one in path.boundaries] == [("t2", 1)]
+    assert [(one.task, one.radius, one.arc) for one in path.circles] == [("t2", 4, 90)]
+    assert of(task("PerformOrbit", {"center": [1, 1]}, [])).circles == ()
+
+
+def test_a_located_place_names_the_first_task_at_it() -> None:
+    plan = {**document([transit(3, 4), transit(30, 40), transit(3, 4)]), "located": {"a": [3, 4]}}
+    assert [one.task for one in track(plan, USV).targets] == ["t1"]

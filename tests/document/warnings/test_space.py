@@ -1,0 +1,213 @@
+"""What the track breaks, at the bounds: limits, stand-offs, areas, reach, endurance."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner_ft.document import PlanDocument, revise
+
+from ...documents import USV, document, step, task
+
+
+def go(*points: tuple[float, float]) -> dict[str, Any]:
+    steps = [step("GoToXY", {"x": x, "y": y}) for x, y in points]
+    return task("Transit", {"target_position": [*points[-1]]}, steps, "Go.")
+
+
+def told(plan: PlanDocument, kind: str) -> list[str]:
+    return [one["text"] for one in plan["warnings"] if one["kind"] == kind]
+
+
+def broken(text: str, *tasks: dict[str, Any]) -> list[str]:
+    return told(document(tasks, constraints=[text]), "limit-broken")
+
+
+INSIDE = "The vehicle stays inside [0, -10], [100, -10], [100, 50], [0, 50]."
+NOTCH = "The vehicle stays inside [-5, -5], [100, -5], [100, 60], [50, 10], [-5, 60]."
+OUTSIDE = "The vehicle stays outside [20, -10], [40, -10], [40, 10], [20, 10]."
+HOME = "The vehicle stays within 100 m of home."
+WRECK = "The vehicle stays at least {} m from the wreck at [50, 0]."
+
+
+@pytest.mark.parametrize(
+    ("text", "points", "how"),
+    [
+        (INSIDE, [(100.4, 0)], None),
+        (INSIDE, [(100.6, 0)], "goes to [100.6, 0], outside of it"),
+        (INSIDE, [(50, 50.4)], None),
+        (INSIDE, [(50, 60)], "goes to [50, 60], outside of it"),
+        (NOTCH, [(0, 40), (100, 40)], "leaves it on the way"),
+        (NOTCH, [(0, 40), (50, 5), (100, 40)], None),
+        (OUTSIDE, [(19, 0)], None),
+        (OUTSIDE, [(20.4, 0)], None),
+        (OUTSIDE, [(20.6, 0)], "enters it on the way to [20.6, 0]"),
+        (OUTSIDE, [(0, 30), (60, 9)], None),
+        (OUTSIDE, [(0, 9), (60, 9)], "enters it on the way to [60, 9]"),
+        (HOME, [(100.4, 0)], None),
+        (HOME, [(0, -100.6)], "goes 101 m away from home"),
+        (HOME, [(99, 0), (120, 0), (130, 0)], "goes 130 m away from home"),
+    ],
+)
+def test_a_limit_of_space_is_kept_to_half_a_metre(
+    text: str, points: list[tuple[float, float]], how: str | None
+) -> None:
+    assert broken(text, go(*points)) == (
+        [f'Task 1, Transit: {how}, against the limit "{text.rstrip(".")}".'] if how else []
+    )
+
+
+def off(metres: float, *points: tuple[float, float]) -> list[str]:
+    """What is told of a limit around [50, 0] where no way round it is looked for."""
+    plan = document([go(*points)], constraints=[WRECK.format(metres)])
+    plan["tasks"][0]["skill_sequence"] = go(*points)["skill_sequence"]
+    return [one.split(",")[1].split(": ")[1] for one in told(revise(plan, USV), "limit-broken")]
+
+
+def test_a_distance_that_is_kept_off_is_of_the_whole_leg() -> None:
+    assert off(20, (20, 30), (80, 30)) == off(20, (0, 19.6), (100, 19.6)) == []
+    assert off(20, (0, 19), (100, 19)) == ["comes within 19 m"]
+    assert off(20, (0, 19), (100, 19), (100, 60), (0, 60), (10, 10)) == ["comes within 19 m"]
+    hold = task("KeepStation", {}, [step("StationKeep", {"time": 9})])
+    tasks = [go((0, -19)), hold, go((50, -19))]
+    plan = document(tasks, constraints=[WRECK.format(20)])
+    for entry, own in zip(plan["tasks"], tasks, strict=True):
+        entry["skill_sequence"] = own["skill_sequence"]
+    assert told(revise(plan, USV), "limit-broken")[0].startswith("Task 3, Transit: comes within")
+
+
+@pytest.mark.parametrize(("x", "near"), [(201.9, False), (202.1, True)])
+def test_a_great_distance_may_be_missed_by_half_a_hundredth(x: float, *, near: bool) -> None:
+    text = "The vehicle stays at least 400 m from the wreck at [600, 0]."
+    assert bool(broken(text, go((x, 0)))) is near
+
+
+def test_a_plan_and_a_task_may_last_as_long_as_the_limit() -> None:
+    hold = task("KeepStation", {"duration": 600}, [step("StationKeep", {"time": 600})])
+    for seconds, count in ((599, 1), (600, 0), (601, 0)):
+        text = f"The mission takes at most {seconds} s."
+        assert len(broken(text, hold)) == count
+    (found,) = broken("The mission takes at most 599 s.", hold)
+    assert found.startswith("The plan takes about 600 s, against")
+
+
+@pytest.mark.parametrize(("limit", "count"), [(1.4, 1), (1.5, 0), (2, 0)])
+def test_a_task_may_be_as_fast_as_the_limit(limit: float, count: int) -> None:
+    given = {"side_id": "west", "length": 20, "distance": 5, "speed": 1.5}
+    ends = [step("GoToXY", {"x": 35, "y": y}) for y in (0, 20)]
+    passing = task("ParallelStructurePass", given, ends)
+    assert len(broken(f"The vehicle goes no faster than {limit} m/s.", passing)) == count
+
+
+def test_what_is_recorded_near_a_thing_is_found_by_its_name() -> None:
+    snap = step("StationKeep", {"time": 9})
+    snap["perception_skills"] = [{"name": "CaptureGeoSnapshot", "parameters": {}}]
+    near, far = (
+        task("KeepStation", {}, [snap], f"Hold near the {name}.") for name in ("Marina", "pier")
+    )
+    looking = task("KeepStation", {}, [step("StationKeep", {"time": 9})], "Hold near the marina.")
+    assert broken("Nothing is recorded near marina.", far, looking) == []
+    (found,) = broken("Nothing is recorded near marina.", far, near)
+    assert found.startswith("Task 2, KeepStation: records (CaptureGeoSnapshot), against")
+    assert len(broken("Nothing is recorded.", looking, far)) == 1
+
+
+# ---------------------------------------------------------------- boundaries, area, reach
+
+
+def fenced(*points: tuple[float, float], step_of: int = 0) -> dict[str, Any]:
+    one = go(*points)
+    corners = [[0, -5], [50, -5], [50, 50], [0, 50]]
+    own = {"name": "BoundaryEnforcement", "parameters": {"poly_coords": corners}}
+    one["skill_sequence"][step_of]["filter_skills"] = [own]
+    return one
+
+
+def test_a_boundary_is_of_its_step_and_where_it_ends() -> None:
+    def outside(*points: tuple[float, float], at: int = 0) -> list[str]:
+        return told(document([fenced(*points, step_of=at)]), "outside-boundary")
+
+    assert outside((50.4, 0)) == []
+    assert outside((50.6, 0)) == [
+        "Task 1, Transit goes to [50.6, 0], which is outside its boundary."
+    ]
+    assert outside((90, 0), (40, 0), at=1) == [], "the leg begins outside"
+    assert len(outside((40, 0), (90, 0), at=1)) == 1 and outside((40, 0), (90, 0)) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        ("The crew works inside [0, 0], [20, 0], [20, 20], [0, 20].", 1),
+        ("The crew works inside (0, 0), (20, 0), (20, 20), (0, 20).", 1),
+        ("The crew works inside [0, 0], [20, 0], [20, 20].", 1),
+        ("The crew works inside [0, 0], [90, 0], [0, 0].", 0),
+        ("The crew works inside [0, 0], [90, 0], [90, 90].", 0),
+        ("The crew works at [0, 0], [20, 0], [20, 20], [0, 20].", 0),
+    ],
+)
+def test_an_area_in_a_constraint_that_is_no_limit_is_a_boundary_too(text: str, count: int) -> None:
+    plan = document([go((30, 10))], constraints=[text])
+    assert len(told(plan, "outside-boundary")) == count
+
+
+@pytest.mark.parametrize(
+    ("x", "reach", "area"), [(100, 0, 0), (100.4, 1, 0), (100.6, 1, 1), (101, 1, 1)]
+)
+def test_the_reach_is_half_of_what_the_vehicle_goes_and_the_area_has_half_a_metre(
+    x: float, reach: int, area: int
+) -> None:
+    plan = document([go((x, 0))])
+    corners = [[-5, -5], [100, -5], [100, 5], [-5, 5]]
+    vehicle = {**plan["vehicle"], "cruise_speed": 2, "endurance": 100, "area": corners}
+    plan = revise({**plan, "vehicle": vehicle}, USV)
+    assert len(told(plan, "out-of-reach")) == reach and len(told(plan, "outside-area")) == area
+    plan["vehicle"] = None
+    assert told(revise(plan, USV), "out-of-reach") == []
+
+
+def test_the_farthest_point_is_the_one_that_is_out_of_reach() -> None:
+    plan = document([go((120, 0), (0, 150), (0, -140))])
+    vehicle = {**plan["vehicle"], "cruise_speed": 2, "endurance": 100}
+    (found,) = told(revise({**plan, "vehicle": vehicle}, USV), "out-of-reach")
+    assert "[0, 150]" in found and "150 m" in found and "100 m" in found
+
+
+def test_a_task_that_waits_is_out_of_the_area_by_its_place() -> None:
+    plan = document([task("PerformOrbit", {"center": [90, 0], "radius": 5}, None)])
+    corners = [[-5, -5], [50, -5], [50, 5], [-5, 5]]
+    plan = revise({**plan, "vehicle": {**plan["vehicle"], "area": corners}}, USV)
+    assert len(told(plan, "outside-area")) == 1
+
+
+# ---------------------------------------------------------------- endurance
+
+
+def over(seconds: float, *tasks: dict[str, Any], endurance: float = 600) -> list[str]:
+    hold = task("KeepStation", {"duration": seconds}, [step("StationKeep", {"time": seconds})])
+    plan = document([hold, *tasks])
+    plan = revise({**plan, "vehicle": {**plan["vehicle"], "endurance": endurance}}, USV)
+    return told(plan, "over-endurance") + told(plan, "endurance-open")
+
+
+OPEN = task("Transit", {"target_position": [-99, -99]}, None, "Go to the buoy.")
+
+
+def test_the_time_may_be_the_endurance_and_what_is_not_known_matters_from_half_of_it() -> None:
+    assert over(600) == [] and len(over(601)) == 1
+    assert over(300, OPEN) == [] and len(over(301, OPEN)) == 1
+    (found,) = over(601, OPEN)
+    assert "11 min" in found and "10 min" in found and "not known of t2." in found
+    assert over(601) == ["The plan takes at least 11 min, and the vehicle lasts 10 min."]
+
+
+def test_the_way_home_counts_from_where_the_plan_ends_and_is_named_from_a_minute() -> None:
+    assert over(500, go((75, 0))) == [], "50 s out and 50 s back"
+    (found,) = over(500, go((90, 0)), endurance=619)
+    assert (
+        "10 min and 1 min for the way home" in found and over(500, go((90, 0)), endurance=620) == []
+    )
+    (found,) = over(500, go((88, 0)))
+    assert "for the way home" not in found
+    assert over(500, go((75, 0)), go((0, 0))) == [] and len(over(501, go((75, 0)), go((0, 0)))) == 1
