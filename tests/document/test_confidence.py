@@ -10,6 +10,14 @@ import pytest
 from planner_ft.confidence.judgement import Judgement
 from planner_ft.document import apply, document_digest, revise, undo
 from planner_ft.document.build import PlanDocument, build
+from planner_ft.document.confidence import (
+    choice_lines,
+    confidence_lines,
+    doubtful_text,
+    held,
+    least_sure,
+    open_choices,
+)
 from planner_ft.document.files import document_problem
 from planner_ft.document.tree import plan_tree
 from planner_ft.planning.doubts import doubts
@@ -143,3 +151,64 @@ def test_an_older_document_says_nothing_and_stays_as_it_is() -> None:
     assert document_problem(old, USV) is None
     assert revise(old, USV) == old
     assert "How sure" not in plan_tree(old)
+
+
+def sure(level: str) -> dict[str, Any]:
+    return {"level": level, "probability": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("found", "least", "doubtful"),
+    [
+        ({}, None, ""),
+        ({"task": sure("sure")}, "sure", ""),
+        ({"task": sure("check")}, "check", "check"),
+        ({"skills": sure("unsure")}, "unsure", "skills unsure"),
+        ({"task": sure("check"), "values": {"radius": sure("unsure")}}, "unsure", "check: radius unsure"),
+        ({"values": {"a": sure("check"), "b": sure("sure")}, "skills": sure("check")}, "check", "a check, skills check"),
+    ],
+)  # fmt: skip
+def test_the_least_sure_part_of_a_task(found: Any, least: str | None, doubtful: str) -> None:
+    assert least_sure({"confidence": found}) == least
+    assert doubtful_text({"confidence": found}) == doubtful
+
+
+def test_tasks_that_are_to_be_checked_are_counted_from_one() -> None:
+    tasks = [{"confidence": {"task": sure(one)}} for one in ("sure", "check", "unsure")]
+    plan = {"confidence": sure("check"), "tasks": tasks}
+    assert list(confidence_lines(plan)) == ["How sure: check (task 2 check, task 3 unsure)"]
+    assert list(confidence_lines({**plan, "tasks": tasks[:1]})) == ["How sure: check"]
+
+
+def test_a_probability_has_four_digits() -> None:
+    assert held(0.123456)["probability"] == 0.1235
+
+
+def test_what_an_edit_leaves_of_the_confidence(plan: PlanDocument) -> None:
+    other = {"kind": "parameter", "task": "t1", "name": "center", "value": [9, 9]}
+    left = apply(plan, other, USV)["tasks"][0]["confidence"]
+    assert sorted(left) == ["values"] and sorted(left["values"]) == ["radius", "title"]
+    prompt = apply(plan, {"kind": "prompt", "task": "t1", "text": "Go."}, USV)
+    left = prompt["tasks"][0]["confidence"]
+    assert sorted(left) == ["task", "values"] and len(left["values"]) == 3
+    gone = apply(plan, {"kind": "remove", "task": "t1"}, USV)
+    assert [one["text"] for one in gone["choices"]] == ["Task 1: KeepStation or FeatureStare?"]
+    first = apply(plan, {"kind": "insert", "at": 0, "title": "Diagnostics"}, USV)
+    assert [one["text"].split(":")[0] for one in first["choices"]] == [
+        "Task 3",
+        "Task 2, PerformOrbit",
+    ]
+
+
+def test_a_choice_of_a_place_says_where_it_is_not_known() -> None:
+    choice = {
+        "task": "t1",
+        "parameter": "center",
+        "value": [40, 10],
+        "others": [[-99, -99], [1, 2]],
+    }
+    shown = {"proposed": {"choices": [choice]}, "tasks": [{**TASKS[0], "id": "t1"}]}
+    (asked,) = open_choices(shown, USV)
+    assert asked["text"] == "Task 1, PerformOrbit: center [40,10] m, not known yet or [1,2] m?"
+    listed = list(choice_lines({"choices": [asked]}))
+    assert listed[0].endswith(" (1a for [-99,-99], 1b for [1,2])")

@@ -18,9 +18,12 @@ from planner_ft.document import (
     apply,
     differences,
     document_digest,
+    files,
     read_document,
+    revise,
     write_document,
 )
+from planner_ft.document.build import canonical
 from planner_ft.document.files import document_problem
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
@@ -179,3 +182,88 @@ def test_differences_say_what_was_changed(plan: PlanDocument) -> None:
     assert [
         change.text for change in differences(apply(plan, {"kind": "remove", "task": "t2"}, USV))
     ] == ["Transit (t2): removed"]
+
+
+def test_what_is_wrong_is_named_with_its_place_and_cut_to_200_characters(
+    plan: PlanDocument,
+) -> None:
+    def problem(**changes: Any) -> str:
+        return document_problem({**plan, **changes}, USV) or ""
+
+    assert problem(edits=3).startswith("edits: ")
+    assert (document_problem(3, USV) or "").startswith("the document: ")
+    wrong = copy.deepcopy(plan["tasks"])
+    wrong[1]["parameters"] = {"target_position": [1, 2], "x" * 300: 1}
+    named = problem(tasks=wrong)
+    assert named.startswith("tasks[1]: ") and len(named) == len("tasks[1]: ") + 204
+    assert named.endswith(" ...")
+    again = problem(proposed={**plan["proposed"], "tasks": wrong})
+    assert again.startswith("proposed.tasks[1]: ")
+
+
+def test_a_file_of_64_mib_is_read_and_a_larger_one_is_not(
+    plan: PlanDocument, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_document(tmp_path / "plan.json", plan)
+    size = (tmp_path / "plan.json").stat().st_size
+    assert files.LARGEST_FILE == 64 * 1024 * 1024
+    monkeypatch.setattr(files, "LARGEST_FILE", size)
+    assert read_document(tmp_path / "plan.json") == plan
+    monkeypatch.setattr(files, "LARGEST_FILE", size - 1)
+    with pytest.raises(PlannerError, match=f"has {size} bytes, more than"):
+        read_document(tmp_path / "plan.json")
+
+
+@pytest.mark.parametrize(
+    ("made", "sentence"),
+    [
+        (3, "names no vocabulary"),
+        ({}, "names no vocabulary"),
+        ({"name": 3}, "names no vocabulary"),
+        (None, "names no vocabulary"),
+    ],
+)
+def test_a_plan_that_names_no_vocabulary_is_refused(
+    plan: PlanDocument, tmp_path: Path, made: Any, sentence: str
+) -> None:
+    (tmp_path / "plan.json").write_text(json.dumps({**plan, "vocabulary": made}))
+    with pytest.raises(PlannerError, match=sentence):
+        read_document(tmp_path / "plan.json")
+    with pytest.raises(PlannerError, match=r"another vocabulary \('?\w+'?, other content\)"):
+        read_document(tmp_path / "plan.json", USV)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (2**53 - 1, b"9007199254740991"),
+        (-(2**53 - 1), b"-9007199254740991"),
+        (2**53, b"9007199254740992"),
+        ([True, {"a": 10**21}], b'[true,{"a":1e+21}]'),
+    ],
+)
+def test_whole_numbers_have_the_form_of_rfc_8785(value: Any, text: bytes) -> None:
+    assert canonical(value) == text
+
+
+def test_a_plan_is_complete_when_nothing_is_open_and_all_answers_are_valid() -> None:
+    steps = [step("StationKeep", {"time": 60})]
+    hold = task("KeepStation", {"duration": 60}, steps, "Hold for 60 s.")
+    whole = document([hold], command="Hold for 60 s.")
+    assert (whole["valid"], whole["complete"]) == (True, True)
+    less = document([hold, {**hold, "skill_sequence": None}], command="Hold for 60 s.")
+    assert (less["valid"], less["complete"]) == (True, False)
+    wrong = revise({**whole, "problems": ["no"], "output": ""}, USV)
+    assert (wrong["valid"], wrong["complete"]) == (False, False)
+    bad = copy.deepcopy(less)
+    bad["tasks"][1] |= {"problems": ["no"], "output": ""}
+    assert revise(bad, USV)["valid"] is False
+    assert [one["id"] for one in less["tasks"]] == ["t1", "t2"]
+
+
+def test_a_place_that_was_filled_in_is_located_in_its_tasks_and_an_open_one_is_not() -> None:
+    there = task("Transit", {"target_position": [-99, -99]}, None, "Go to the buoy.")
+    plan = document([task("KeepStation", {}, None), there, there], command="Go to the buoy.")
+    assert plan["located"] == {} and plan["open_places"] == [{"name": "buoy", "tasks": [2, 3]}]
+    assert [one.get("waits_for") for one in plan["tasks"]] == [None, "buoy", "buoy"]
+    assert not any("located" in one for one in plan["tasks"])

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner_ft.document import PlanDocument, adopt, altered, apply, differences, undo
+from planner_ft.document import PlanDocument, adopt, altered, apply, differences, operations, undo
+from planner_ft.document.entered import reword
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.document_schema import document_schema
 from tests.documents import USV, document, step, task
@@ -317,3 +318,136 @@ def test_a_skill_is_dropped_from_one_step_or_from_all(plan: PlanDocument) -> Non
     for number, sentence in ((1, "t5 step 2: has no filter or perc"), (3, "one of the task's 3")):
         with pytest.raises(PlannerError, match=sentence):
             left(step=number)
+
+
+def test_a_plan_has_at_most_a_thousand_tasks() -> None:
+    tasks = [task("KeepStation", {}, None) for _number in range(2)]
+    edit = {"kind": "insert", "at": 0, "title": "Diagnostics"}
+    with pytest.MonkeyPatch.context() as patch:
+        assert operations.MOST_TASKS == 1000
+        patch.setattr(operations, "MOST_TASKS", 3)
+        full = apply(document(tasks), edit, USV)
+        with pytest.raises(PlannerError, match="the plan has 3 tasks, and no more fit"):
+            apply(full, edit, USV)
+
+
+def test_a_new_task_has_an_id_that_none_had_before(plan: PlanDocument) -> None:
+    edit = {"kind": "insert", "at": 5, "title": "Diagnostics"}
+    first = apply(plan, edit, USV)
+    assert first["tasks"][-1]["id"] == "t6"
+    gone = apply(first, {"kind": "remove", "task": "t6"}, USV)
+    assert apply(gone, edit, USV)["tasks"][-1]["id"] == "t7"
+    fewer = apply(plan, {"kind": "remove", "task": "t5"}, USV)
+    assert apply(fewer, {**edit, "at": 0}, USV)["tasks"][0]["id"] == "t6"
+    assert apply(document([]), {**edit, "at": 0}, USV)["tasks"][0]["id"] == "t1"
+
+
+@pytest.mark.parametrize(
+    ("edit", "sentence"),
+    [
+        ({"kind": "move", "task": "t1", "to": 5}, "place 6: the plan has places 1 to 5"),
+        ({"kind": "move", "task": "t1", "to": -1}, "place 0: the plan has places 1 to 5"),
+        ({"kind": "insert", "at": 6, "title": "Diagnostics"}, "place 7: the plan has places 1 to 6"),
+        ({"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": []}, "must be an object"),
+        ({"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": {"x": 1}}, "x: is no param"),
+        ({"kind": "constraint", "at": 1}, "constraint 2: the plan has 0"),
+        ({"kind": "constraint", "at": 0}, "constraint 1: the plan has 0"),
+        ({"kind": "constraint", "at": -1, "text": "x"}, "constraint 0: the plan has 0"),
+        ({"kind": "constraint", "at": 0, "text": " "}, "constraint 1: the text is empty"),
+        ({"kind": "skill", "task": "t4", "step": 1, "role": "navigation", "index": 0, "name": "time"}, "t4 step 2: the task has 1 steps"),
+        ({"kind": "skill", "task": "t4", "step": -1, "role": "navigation", "index": 0, "name": "time"}, "t4 step 0: the task has 1 steps"),
+        ({"kind": "skill", "task": "t3", "step": 0, "role": "navigation", "index": 0, "name": "time"}, "t3 step 1: the task has 0 steps"),
+        ({"kind": "skill", "task": "t4", "step": 0, "role": "navigation", "index": 1, "name": "time"}, "t4 step 1: has 1 navigation skills, and none of number 2"),
+        ({"kind": "skill", "task": "t4", "step": 0, "role": "filter", "index": 0, "name": "time"}, "t4 step 1: has 0 filter skills, and none of number 1"),
+        ({"kind": "skill", "task": "t4", "step": 0, "role": "navigation", "index": -1, "name": "time"}, "none of number 0"),
+        ({"kind": "drop", "task": "t4", "name": "DetectObjects"}, "t4: has no filter or perception"),
+        ({"kind": "drop", "task": "t4", "name": "DetectObjects", "step": 1}, "one of the task's 1, from 0"),
+        ({"kind": "drop", "task": "t4", "name": "DetectObjects", "step": -1}, "one of the task's 1, from 0"),
+        ({"kind": "drop", "task": "t3", "name": "DetectObjects", "step": 0}, "one of the task's 0, from 0"),
+        ({"kind": "drop", "task": "t4", "name": "DetectObjects", "step": 0}, "t4 step 1: has no filter"),
+        ({"kind": "replace", "tasks": [{"id": "t1"}]}, "edit replace: {'id': 't1'} is not valid"),
+        ({"kind": "prompt", "task": "t1", "text": "x" * 4001}, "at most 4000 characters"),
+        ({"kind": "remove", "task": "x" * 120}, f"task {'x' * 120}: is not"),
+        ({"kind": "remove", "task": "x" * 121}, f"task {'x' * 120} ...: is not"),
+    ],
+)  # fmt: skip
+def test_the_first_and_last_that_an_edit_can_name(
+    plan: PlanDocument, edit: dict[str, Any], sentence: str
+) -> None:
+    with pytest.raises(PlannerError) as caught:
+        apply(plan, edit, USV)
+    assert sentence in str(caught.value)
+
+
+def test_a_prompt_may_have_4000_characters_and_lines(plan: PlanDocument) -> None:
+    text = "x" * 3997 + "\n\ty"
+    edited = apply(plan, {"kind": "prompt", "task": "t1", "text": text}, USV)
+    assert by_id(edited, "t1")["task_prompt"] == text and by_id(edited, "t1")["stale"]
+    waiting = apply(plan, {"kind": "prompt", "task": "t3", "text": "Go."}, USV)
+    assert "stale" not in by_id(waiting, "t3"), "it has no skills yet"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "before", "after", "then"),
+    [
+        ("Circle at 12 m, not at 120 m.", 12, 15, "Circle at 15 m, not at 120 m."),
+        ("Hold 12.5 s.", 12, 15, "Hold 12.5 s."),
+        ("Hold 12. Go.", 12, 15, "Hold 15. Go."),
+        ("Hold 12 s at 12 m.", 12, 15, "Hold 12 s at 12 m."),
+        ("Hold -12 s.", 12, 15, "Hold -12 s."),
+        ("Go to (1, -2).", [1, -2], [3, 4], "Go to [3, 4]."),
+        ("Go to [ 1,-2 ].", [1, -2], [3, 4], "Go to [3, 4]."),
+        ("Go to [1, -2, 3].", [1, -2, 3], [3, 4], "Go to [1, -2, 3]."),
+        ("Find the buoy, not the buoys.", "buoy", "mast", "Find the mast, not the buoys."),
+        ("Take it.", True, False, "Take it."),
+        ("Look at a, b.", ["a", "b"], ["c"], "Look at a, b."),
+    ],
+)
+def test_the_one_mention_of_a_value_is_replaced(
+    prompt: str, before: Any, after: Any, then: str
+) -> None:
+    assert reword(prompt, before, after) == then
+
+
+def test_an_answer_of_the_agent_replaces_all_that_was_of_the_one_before(plan: PlanDocument) -> None:
+    steps = [step("StationKeep", {"time": 60})]
+    edit = {"kind": "skills", "task": "t4", "skill_sequence": steps}
+    told = apply(plan, {**edit, "assumptions": ["Calm."], "defaults": {"duration": 9}}, USV)
+    assert by_id(told, "t4")["assumptions"] == ["Calm."]
+    assert by_id(told, "t4")["parameters"] == {"duration": 60}
+    assert "assumptions" not in by_id(apply(told, edit, USV), "t4")
+    free = apply(plan, {"kind": "parameter", "task": "t4", "name": "duration", "value": None}, USV)
+    given = by_id(apply(free, {**edit, "defaults": {"duration": 9}}, USV), "t4")
+    assert (given["parameters"], given["defaults"]) == ({"duration": 9}, {"duration": 9})
+    for wrong in ("Calm.", [1], {"a": 1}):
+        with pytest.raises(PlannerError, match="assumptions must be a list of texts"):
+            apply(plan, {**edit, "assumptions": wrong}, USV)
+
+
+def test_a_task_that_is_edited_by_hand_is_no_longer_at_its_located_place(
+    plan: PlanDocument,
+) -> None:
+    placed = apply(plan, {"kind": "locate", "name": "green buoy", "position": [5, 5]}, USV)
+    moved = {"kind": "parameter", "task": "t3", "name": "center", "value": [6, 6]}
+    free = apply(placed, moved, USV)
+    assert "located" not in by_id(free, "t3") and free["located"] == {"green buoy": [5, 5]}
+    kept = apply(placed, {**moved, "name": "radius", "value": 9}, USV)
+    assert by_id(kept, "t3")["located"] == {"center": "green buoy"}
+    assert "stale" not in by_id(placed, "t2") and "stale" not in by_id(placed, "t3")
+    other = apply(placed, {"kind": "title", "task": "t3", "title": "SurveyTarget"}, USV)
+    assert by_id(other, "t3")["located"] == {"target_position": "green buoy"}
+
+
+def test_a_value_that_is_set_in_a_step_is_the_operators(plan: PlanDocument) -> None:
+    marked = {"kind": "skills", "task": "t4", "skill_sequence": [step("StationKeep", {"time": 60})]}
+    mark = {
+        "step": 0,
+        "role": "navigation",
+        "name": "StationKeep",
+        "kind": "vehicle",
+        "parameter": "time",
+    }
+    known = apply(plan, {**marked, "added": [mark]}, USV)
+    assert by_id(known, "t4")["added"] == [mark]
+    where = {"task": "t4", "step": 0, "role": "navigation", "index": 0, "name": "radius"}
+    assert "added" not in by_id(apply(known, {"kind": "skill", **where, "value": 4}, USV), "t4")

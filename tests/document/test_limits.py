@@ -251,3 +251,86 @@ def test_the_origin_of_a_plan_locates_its_geographic_places() -> None:
     assert "origin" not in undo(located, USV)
     with pytest.raises(PlannerError, match="plan anew"):
         apply(located, edit, USV)
+
+
+def moving() -> dict[str, Any]:
+    """Steps that move but for the second."""
+    steps = [
+        step("GoToXY", {"x": 3, "y": 4}),
+        step("StationKeep"),
+        step("DriftWithCurrent", {"time": 3}),
+    ]
+    return task(
+        "Transit",
+        {"target_position": [3, 4]},
+        [*steps, step("ArcTurn", {"radius": 3, "delta_yaw": 90})],
+    )
+
+
+@pytest.mark.parametrize(
+    ("command", "text", "words"),
+    [
+        ("Go; stay within 90 m of home, please.", "The vehicle stays within 90 m of home.", "stay within 90 m of home"),
+        ("Go to [3, 4], at most 2 m/s fast.", "The vehicle goes no faster than 2 m/s.", "at most 2 m/s fast"),
+        ("Take at most 600 s.", "The mission takes at most 600 s.", "Take at most 600 s"),
+        ("Go to [3, 4], keep 9 m from [50, 50], go on.", "The vehicle stays at least 9 m from [50, 50].", "keep 9 m from [50, 50]"),
+        ("Stay off the ferry.", "The vehicle stays at least 9 m from the Ferry.", "Stay off the ferry"),
+        ("Stay off.", "The vehicle stays at least 9 m from the ferry.", None),
+    ],
+)  # fmt: skip
+def test_the_words_of_a_limit_are_its_clause(command: str, text: str, words: str | None) -> None:
+    (limit,) = document([transit(3, 4)], command=command, constraints=[text])["limits"]
+    assert limit.get("words") == words
+    if words:
+        ((start, end),) = limit["spans"]
+        assert command[start:end] == words
+
+
+def test_a_filter_stands_in_every_step_that_moves_and_is_marked_there() -> None:
+    texts = [f"The vehicle keeps at least {far} m from every obstacle." for far in (5, 9)]
+    (entry,) = document([moving()], constraints=texts)["tasks"]
+    filters = [one["filter_skills"] for one in entry["skill_sequence"]]
+    assert [[own["parameters"]["min_distance"] for own in one] for one in filters] == [
+        [5, 9],
+        [],
+        [5, 9],
+        [5, 9],
+    ]
+    assert [(mark["step"], mark["note"]) for mark in entry["added"]] == [
+        (at, text) for at in (0, 2, 3) for text in texts
+    ]
+    assert entry["skill_sequence"][0]["failure_modes"] == ["margin violated"]
+    (same,) = document([moving()], constraints=texts[::-1])["tasks"]
+    assert [len(one["filter_skills"]) for one in same["skill_sequence"]] == [1, 0, 1, 1]
+
+
+def test_a_filter_without_a_value_takes_the_limits_and_gives_it_back() -> None:
+    text = "The vehicle keeps at least 5 m from every obstacle."
+    going = transit(3, 4)
+    going["skill_sequence"][0]["filter_skills"] = [{"name": "ObstacleAvoidance", "parameters": {}}]
+    plan = document([going], constraints=[text, "Hurry."])
+    (own,) = plan["tasks"][0]["skill_sequence"][0]["filter_skills"]
+    assert own["parameters"] == {"min_distance": 5}
+    (mark,) = plan["tasks"][0]["added"]
+    assert (mark["parameter"], mark["kind"]) == ("min_distance", "limit")
+    less = apply(plan, {"kind": "constraint", "at": 0}, USV)["tasks"][0]
+    assert less["skill_sequence"][0]["filter_skills"] == [
+        {"name": "ObstacleAvoidance", "parameters": {}}
+    ]
+    assert "added" not in less
+
+
+def test_another_fence_is_a_second_boundary() -> None:
+    other = FENCE.replace("200", "300")
+    for texts, count in (((FENCE, FENCE), 1), ((FENCE, other), 2)):
+        (entry,) = document([transit(100, 50)], constraints=texts)["tasks"]
+        assert len(entry["skill_sequence"][0]["filter_skills"]) == count
+
+
+def test_a_limit_holds_for_the_tasks_that_it_names_and_stale_skills_stay_as_they_are() -> None:
+    plan = document([transit(100, 50), transit(9, 9)], constraints=[FENCE])
+    assert plan["limits"][0]["tasks"] == [1, 2]
+    plan = apply(plan, {"kind": "prompt", "task": "t1", "text": "Go."}, USV)
+    plan = apply(plan, {"kind": "constraint", "at": 0, "text": FENCE.replace("200", "300")}, USV)
+    first, second = (one["skill_sequence"][0]["filter_skills"] for one in plan["tasks"])
+    assert (len(first), len(second)) == (0, 1)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from planner_ft.document.language import language, pattern
-from planner_ft.document.ontology import check
+from planner_ft.document.language import language, pattern, read_clauses
+from planner_ft.document.ontology import check, named_places, pieces
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
@@ -98,3 +100,123 @@ def test_phrases_are_whole_words_with_endings_and_gaps() -> None:
     said = pattern(["track ... cable", "survey*"])
     assert said.search("track the export cable") and said.search("Surveying it")
     assert not said.search("backtrack the cable") and not pattern([]).search("anything")
+
+
+@pytest.mark.parametrize(
+    ("command", "targets"),
+    [
+        ("Circle the pier (50, 60), buoy 7 and contact Alpha 12.", ["the pier (50, 60)", "buoy 7", "contact Alpha 12"]),
+        ("Go to the mast, located at [40, 12].", ["the mast, located at [40, 12]"]),
+        ("Go to the mast, lying near (40, 12).", ["the mast, lying near (40, 12)"]),
+        ("Go to [40, 12], the mast.", ["[40, 12]", "the mast"]),
+        ("Go to 40, 12.", ["40, 12"]),
+        ("Go to the mast" + " " * 33 + "at 40, 12.", ["the mast" + " " * 33 + "at 40, 12"]),
+        ("Go to the mast" + " " * 40 + "at 40, 12.", ["the mast", "40, 12"]),
+        ("Go to the one two three four five six seven, then rest.", ["the one two three four five six seven"]),
+        ("Go to the one two three four five six seven eight.", ["the one two three four five six seven"]),
+        ("Go to the wreck of the ship with the red hull.", ["the wreck of the ship", "the red hull"]),
+        ("Go to the wreck of old ships.", ["the wreck of old ships"]),
+        ("Go to the wreck of the.", ["the wreck"]),
+        ("Stay for the night, the panorama, and the ladder.", ["the ladder"]),
+        ("Look here at target Big Ben Tower.", ["here", "target Big Ben"]),
+    ],
+)  # fmt: skip
+def test_targets_begin_with_their_article_and_end_with_their_coordinates(
+    command: str, targets: list[str]
+) -> None:
+    assert elements(command)["target"] == targets
+
+
+@pytest.mark.parametrize(
+    ("text", "longest", "cut"),
+    [
+        ("One. Two three. Four", 8, ["One. ", "Two ", "three. ", "Four"]),
+        ("abcdefghij", 4, ["abcd", "efgh", "ij"]),
+        ("ab cd ef", 5, ["ab ", "cd ef"]),
+        ("abcd", 4, ["abcd"]),
+        ("abcde", 4, ["abcd", "e"]),
+        (" bcde", 4, [" ", "bcde"]),
+        ("A? B! C; D\nE", 4, ["A? ", "B! ", "C; ", "D\nE"]),
+    ],
+)
+def test_long_texts_are_cut_behind_sentences_or_words(
+    text: str, longest: int, cut: list[str]
+) -> None:
+    found = list(pieces(text, longest))
+    assert [part for _start, part in found] == cut
+    assert all(text[start:].startswith(part) for start, part in found)
+
+
+def test_a_command_of_1500_characters_is_read_at_once() -> None:
+    for length, count in ((1500, 1), (1501, 2)):
+        assert len(list(pieces("x" * length))) == count
+
+
+@pytest.mark.parametrize(
+    ("command", "clauses"),
+    [
+        ("Go to 1,2, and 3,4. Then hold; film it: yes!\nHome", ["Go to 1,2", "3,4", "hold", "film it", "yes", "Home"]),
+        ("At 14.30 go to 1, 2 after that home.", ["At 14.30 go to 1, 2", "home"]),
+        ("Go 1, -3 m off", ["Go 1, -3 m off"]),
+    ],
+)  # fmt: skip
+def test_clauses_end_at_signs_that_are_in_no_number(command: str, clauses: list[str]) -> None:
+    found = read_clauses(command, USV)
+    assert [one.text.strip() for one in found] == clauses
+    assert [command[one.start : one.end] for one in found] == [one.text for one in found]
+
+
+@pytest.mark.parametrize(
+    ("command", "excluded", "corrected"),
+    [
+        ("Hold, no drift, go", [None, "no", None], [False] * 3),
+        ("Hold 10 m, no, make that 20 m", [None, "no", None], [True, True, False]),
+        ("Hold 10 m, make that 20 m", [None, None], [True, False]),
+        ("Don't forget the mast, go", [None, None], [False, False]),
+    ],
+)
+def test_what_is_ruled_out_and_taken_back(
+    command: str, excluded: list[str | None], corrected: list[bool]
+) -> None:
+    found = read_clauses(command, USV)
+    assert [one.excluded is not None for one in found] == [one is not None for one in excluded]
+    for one, words in zip(found, excluded, strict=True):
+        if words and one.excluded is not None:
+            assert command[one.excluded :].startswith(words)
+            assert one.wants(one.excluded) and not one.wants(one.excluded + 1)
+
+
+def test_a_clause_that_only_tells_of_something_asks_for_nothing() -> None:
+    told, asks = read_clauses("The survey was done, go", USV)
+    assert not told.wants(told.start) and asks.wants(asks.start)
+    assert list(told.spans(pattern(["survey"]))) == []
+    held = read_clauses("Hold it, then hold", USV)[1]
+    assert list(held.spans(pattern(["hold"]))) == [(14, 18)]
+
+
+def test_things_beside_positions_are_no_places_of_the_water() -> None:
+    command = (
+        "Go to the mast at [1, 2], the waypoint at [3, 4], the middle of the channel at [5, 6],"
+        " the mooring buoy at [7, 8]."
+    )
+    found = [(words, place.x, place.y) for words, place in named_places(command, USV)]
+    assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8)]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('ask = 3\n', "every [[ask]] needs the lists words and tasks"),
+        ('[[ask]]\nwords = []\ntasks = ["TakePhoto"]\n', "needs the lists words and tasks"),
+        ('[[ask]]\nwords = [" "]\ntasks = ["TakePhoto"]\n', "needs the lists words and tasks"),
+        ('[[ask]]\nwords = ["x"]\ntasks = ["FlyToPoint"]\nnouns = 3\n', "[[ask]]: nouns must be a list of words"),
+        ('[[data]]\nwords = ["x"]\nskills = 3\n', "[[data]]: skills must be a list of names"),
+        ('sensor = 3\n', "[sensor] needs the list words"),
+    ],
+)  # fmt: skip
+def test_every_list_of_an_ontology_is_one_of_texts(tmp_path: Path, text: str, said: str) -> None:
+    (tmp_path / "mine.toml").write_text((BUNDLED / "inspection_drone.toml").read_text())
+    (tmp_path / "mine.ontology.toml").write_text(text)
+    with pytest.raises(PlannerError) as caught:
+        language(load_vocabulary(tmp_path / "mine.toml"))
+    assert said in str(caught.value)

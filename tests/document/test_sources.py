@@ -198,3 +198,62 @@ def test_another_vehicle() -> None:
         command="Fly round the tower at [3, 4], nine metres off.",
     )
     assert words(plan, 0, "radius") == ["nine metres"] and words(plan, 0, "center") == ["3, 4"]
+
+
+HOLD = {"duration": 12}
+
+
+def test_a_value_is_from_the_words_nearest_to_those_of_its_task() -> None:
+    command = "Hold for 12 s here, then circle the mast at [50, 60] at 12 m for 12 s."
+    tasks = [
+        task("KeepStation", HOLD, None),
+        task("PerformOrbit", {"center": [50, 60], "radius": 12}, None),
+        task("KeepStation", HOLD, None),
+    ]
+    plan = document(tasks, command=command)
+    spans = [one["sources"]["duration"]["spans"] for one in (plan["tasks"][0], plan["tasks"][2])]
+    first, last = command.index("12 s"), command.rindex("12 s")
+    assert spans == [[[first, first + 4]], [[last, last + 4]]]
+    command = "Circle it at 12 m. Then go to [1, 2] and circle the mast at [50, 60], 12 m off."
+    given = {"center": [50, 60], "radius": 12}
+    plan = document([task("PerformOrbit", given, None)], command=command)
+    assert plan["tasks"][0]["sources"]["radius"]["spans"][0][0] == command.rindex("12 m")
+
+
+@pytest.mark.parametrize(
+    ("command", "given", "kind", "note"),
+    [
+        ("Go to [0, 0], come home.", {"target_position": [0, 0]}, "command", None),
+        ("Come home, go home.", {"target_position": [0, 0]}, "derived", "home"),
+        ("Go out.", {"target_position": [0, 0]}, "model", "home, which the command does not speak of"),
+        ("Go to [3, 4], 10 m north of it.", {"target_position": [3, 14]}, "derived", "follows from what the command says"),
+        ("三 go to [3, 4].", {"target_position": [3, 14]}, "model", "the command could not be read with certainty"),
+        ("Go to [3, 4].", {"target_position": [3, 14]}, "model", "the command does not say it"),
+        ("Go to it.", {"target_position": [-99, -99]}, "derived", "unresolved location: the command gives no coordinates"),
+    ],
+)  # fmt: skip
+def test_where_a_position_is_from(
+    command: str, given: dict[str, Any], kind: str, note: str | None
+) -> None:
+    found = source(command, "Transit", given, "target_position")
+    assert (found["kind"], found.get("note")) == (kind, note)
+
+
+def test_home_is_from_the_last_words_that_speak_of_it_and_an_arc_has_no_sign() -> None:
+    plan = document(
+        [task("Transit", {"target_position": [0, 0]}, None)], command="Go home, go home."
+    )
+    assert plan["tasks"][0]["sources"]["target_position"]["spans"] == [[9, 16]]
+    found = source("Circle a quarter of it.", "PerformOrbit", {"center": [3, 4], "arc": -90}, "arc")
+    assert found["note"] == "quarter of a circle is 90 degrees"
+
+
+@pytest.mark.parametrize(("count", "end"), [(60, "x"), (61, "x ...")])
+def test_a_proposed_value_is_shown_to_60_characters(count: int, end: str) -> None:
+    plan = document([task("SearchAndDetect", {"target_description": "x" * count}, None)])
+    edit = {"kind": "parameter", "task": "t1", "name": "target_description", "value": "y"}
+    note = apply(plan, edit, USV)["tasks"][0]["sources"]["target_description"]["note"]
+    assert note.endswith(end) and note.count("x") == 60
+    added = document([task("KeepStation", {}, None)])
+    edit = {"kind": "parameter", "task": "t1", "name": "duration", "value": 9}
+    assert apply(added, edit, USV)["tasks"][0]["sources"]["duration"]["note"] == "added"

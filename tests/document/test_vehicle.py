@@ -75,3 +75,37 @@ def test_an_area_is_a_polygon_of_metres() -> None:
     assert check_area([[0, 0], [4, 0], [4, 4]]) == ((0, 0), (4, 0), (4, 4))
     with pytest.raises(PlannerError, match="at least three"):
         check_area("0,0 1,1 2,2")
+
+
+@pytest.mark.parametrize(
+    ("text", "fits"),
+    [
+        ("endurance = 1e9", True),
+        ("endurance = 1.1e9", False),
+        ("endurance = 1e-9", True),
+        ("endurance = -1", False),
+        ("area = [[0, 0], [1e9, 0], [9, -1e9]]", True),
+        ("area = [[0, 0], [1.1e9, 0], [9, 9]]", False),
+        ("area = [[0, 0], [-1.1e9, 0], [9, 9]]", False),
+        ("area = [[0, 0], [1, 1], [2, 0]]", True),
+        ("area = [[0, 0], [1, 1], [2]]", False),
+        ("name = 3", False),
+        ('name = " "', False),
+    ],
+)
+def test_figures_reach_to_a_thousand_million(tmp_path: Path, text: str, *, fits: bool) -> None:
+    (tmp_path / "mine.toml").write_text(text)
+    if fits:
+        load_vehicle(tmp_path / "mine.toml", USV)
+    else:
+        with pytest.raises(PlannerError):
+            load_vehicle(tmp_path / "mine.toml", USV)
+
+
+def test_what_a_profile_does_not_say_is_a_full_circle_and_ten_metres(tmp_path: Path) -> None:
+    shutil.copy(BUNDLED / "inspection_drone.toml", tmp_path / "mine.toml")
+    figures = 'name = " mine "\ncruise_speed = 2\nendurance = 900\nturn_rate = 30\n'
+    (tmp_path / "mine.vehicle.toml").write_text(figures)
+    vehicle = load_vehicle(None, load_vocabulary(tmp_path / "mine.toml"))
+    assert (vehicle.orbit_angle, vehicle.stand_off, vehicle.name) == (360, 10, "mine")
+    assert vehicle.area is None and vehicle.as_json()["area"] is None

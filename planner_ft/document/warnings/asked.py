@@ -149,6 +149,7 @@ def instructions(case: Case) -> Iterator[Warning]:
     planned = compact_json(parts).casefold()
     known = [case.words[name] for name in ("impossible", "home", "here", "stay")]
     known += [case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
+    known += [data.said for data in case.spoken.data if data.ruled_out]
     empty = [case.words[name] for name in ("nothing", "water", "boundary", "determiner")]
     for clause in told:
         text = clause.text.strip()

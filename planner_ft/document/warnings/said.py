@@ -36,8 +36,8 @@ NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30
 """Characters between a value and its correction."""
-REPEATED = 16
-"""Characters behind a count in which the word for what is repeated stands."""
+WORD = re.compile(r"\S+")
+"""The first or second behind a count says what is repeated: "three full revolutions"."""
 
 
 def lost(words: str) -> Warning:
@@ -168,7 +168,8 @@ def _is_kept(clause: Clause, case: Case) -> bool:
         limited = [value for value in plan.limits if is_place(value)]
         if not inside:
             # "Keep clear of it" names nothing: some text must keep the vehicle away.
-            thing, told = clause.text[away.end() :], case.words["away"].search(plan.texts)
+            thing = case.words["boundary"].sub("", clause.text[away.end() :])
+            told = case.words["away"].search(plan.texts)
             return plan.speaks_of(thing) if LONGER.search(thing) else told is not None
         return all(any(same_place(place, at) for at in limited) for place in inside)
     whole = case.words["whole_limit"].search(clause.text)
@@ -180,11 +181,11 @@ def repeats(case: Case) -> Iterator[Warning]:
     """Counts of rounds or times that nothing in the plan is done so often."""
     text, found = case.text, dict[int, tuple[float, int]]()
     for number in case.numbers:
-        behind = case.words["repeats"].search(text, number.end, number.end + REPEATED)
-        between = text[number.end : behind.start()].split() if behind else []
-        is_count = number.value >= 2 and number.value.is_integer() and len(between) <= 1
-        if behind and number.unit is None and is_count:
-            found[behind.end()] = number.value, number.start
+        if number.unit is None and number.value >= 2 and number.value.is_integer():
+            words = itertools.islice(WORD.finditer(text, number.end), 2)
+            counted = (case.words["repeats"].match(text, word.start()) for word in words)
+            if behind := next(filter(None, counted), None):
+                found[behind.end()] = number.value, number.start
     for count, name in ((2.0, "twice"), (3.0, "thrice")):
         spans = (match.span() for match in case.words[name].finditer(text))
         found |= {end: (count, start) for start, end in spans}

@@ -154,3 +154,112 @@ def test_a_known_place_that_the_command_names_wants_a_task() -> None:
         )
     plan = document([to(88, 40)], command=command, chart={"Osprey": (88, 40)})
     assert not [one for one in plan["warnings"] if one["kind"] == "value-lost"]
+
+
+def lost(command: str, *tasks: dict[str, Any], limits: tuple[str, ...] = ()) -> list[str]:
+    """The words that are lost, each with its kind."""
+    plan = document([*tasks], command=command, constraints=limits)
+    wanted = ("limit-lost", "value-lost", "repeat-lost", "contradiction")
+    return [one["id"] for one in plan["warnings"] if one["kind"] in wanted]
+
+
+HELD = [to(9, 9), hold(600)]
+ROUND = "Go round the mast at 60,60 {} at 20 m."
+
+
+@pytest.mark.parametrize(
+    ("command", "tasks", "words"),
+    [
+        ("Hold 20 minutes, no, ten minutes at 9,9.", HELD, []),
+        ("Hold 20 minutes, make that ten minutes at 9,9.", HELD, []),
+        ("Hold 20 minutes at 9,9, oh well, now it is, no, ten minutes.", HELD, ["20 minutes"]),
+        ("Hold 20 minutes, well, now make that ten minutes at 9,9.", HELD, []),
+        ("Hold one hour and 20 minutes at 9,9.", [to(9, 9), hold(4800)], []),
+        ("Hold one hour and 20 minutes at 9,9.", HELD, ["one hour and 20 minutes"]),
+        ("Hold a second at 9,9, since 14 o'clock, at 50 % of the power.", HELD, []),
+        ("Hold at 9,9 on course 95, bearing: 270.", HELD, ["95", "270"]),
+        ("Hold at 9,9 on a course of 95 degrees.", HELD, ["95 degrees"]),
+        ("Circle it at 9 m. Actually 20 will do. Hold 5 m.", [orbit(360)], ["5 m"]),
+        ("Hold 5 m. Circle it at 9 m, come home by the north side. Actually 20 will do.", [orbit(360), to(0, 0)], ["9 m"]),
+        ("Circle it at 9 m, come home by the north side. Actually 360 degrees will do.", [orbit(360), to(0, 0)], ["9 m"]),
+        ("Hold 9 minutes at 9,9, then home. Actually 10 will do.", [*HELD, to(0, 0)], []),
+        ("Hold 9 minutes at 9,9, then home. Actually 600 will do.", [*HELD, to(0, 0)], []),
+        ("Hold 9 s at 9,9, then home. Actually 2 will do.", [to(9, 9), hold(7200), to(0, 0)], ["2"]),
+        ("Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.", [*HELD, to(0, 0)], ["8 s", "10 s"]),
+        ("Circle the mast at 60,60, radius: 15.", [orbit(360)], ["15"]),
+        ("Circle the mast at 60,60, the radius of 15.", [orbit(360)], ["15"]),
+        ("Circle the mast at 60,60, no radius 15.", [orbit(360)], []),
+        ("Circle the mast at 60,60, with 15 cameras.", [orbit(360)], []),
+        ("Map 20x20x5 at 9,9.", [grid(20, 20)], ["5"]),
+        ("Map 20 x 20 x 10 at 9,9.", [grid(20, 20)], []),
+        (ROUND.format("three full revolutions"), [orbit(360)], ["three full revolutions"]),
+        (ROUND.format("three full times"), [orbit(360)], ["three full times"]),
+        (ROUND.format("three really full times"), [orbit(360)], []),
+        (ROUND.format("two times"), [orbit(360)], ["two times"]),
+        (ROUND.format("two times"), [orbit(-720)], []),
+        (ROUND.format("one time"), [orbit(180)], []),
+        (ROUND.format("3 m passes"), [orbit(360)], ["3 m"]),
+        (ROUND.format("thrice"), [orbit(720)], ["thrice"]),
+        (ROUND.format("thrice"), [orbit(1080)], []),
+        ("Hold twice at 9,9.", HELD, ["twice"]),
+        ("Hold twice at 9,9.", [*HELD, hold(60), hold(60)], ["twice"]),
+        ("Hold at 9,9 twice.", [*HELD, to(9, 9)], []),
+        ("Hold at 9,9 from 11:10 to 11:30.", HELD, ["11:10", "11:30"]),
+        ("Hold at 9,9 until 11:30, not 12:30.", HELD, ["11:30"]),
+        ("Hold at 9,9 until 11:30.", [to(9, 9), hold(60) | {"task_prompt": "Until 11:30."}], []),
+        ("Go to 9,9. Hold a minute at 1,9 and 2,9.", [to(9, 9), *at(1), to(2, 9)], []),
+        ("Go to 1,9, then 5,5.", [to(1, 9)], ["5,5"]),
+        ("Do not go to [9, 9], go to [9, 9] at last.", [to(9, 9)], ["9,9"]),
+        ("Go to [9, 9]. Do not go to [9, 8].", [to(9, 9)], []),
+        ("Go to [9, 9]. Do not go to [8, 9].", [to(9, 9)], []),
+        ("Go to 40,0 and 60,40 and 0,60.", [to(40, 0), to(0, 60)], ["40,0 and 60,40 and 0,60"]),
+        ("Never leave 0,0 90,0 90,90 0,90.", [to(9, 9)], ["0,0 90,0 90,90 0,90"]),
+    ],
+)  # fmt: skip
+def test_the_words_that_are_lost_and_no_others(
+    command: str, tasks: list[dict[str, Any]], words: list[str]
+) -> None:
+    found = [one.split(":", 1)[1] for one in lost(command, *tasks)]
+    assert [one for one in found if "mast" not in one] == words
+
+
+BY = "The vehicle is back by 16:30."
+SLOW = "The vehicle goes no faster than {} m/s."
+NEAR = "The vehicle stays at least 70 m from the wreck at [40, 9]."
+
+
+@pytest.mark.parametrize(
+    ("command", "limits", "words"),
+    [
+        ("Go to [9, 9]. Do not exceed 2 m/s.", (SLOW.format(2),), []),
+        ("Go to [9, 9]. Do not exceed 2 m/s.", (SLOW.format(3),), ["do not exceed 2 m/s"]),
+        ("Go to [9, 9]. Do not exceed 2 m/s.", (), ["do not exceed 2 m/s"]),
+        ("Do not exceed 2 m/s, go to [9, 9].", (), ["do not exceed 2 m/s"]),
+        ("Go to [9, 9]. Speed limit 9.", (), []),
+        ("Go to [9, 9]. Speed limit 9 m/s.", (), ["speed limit 9 m/s"]),
+        ("Go to [9, 9]. Be back by 16:30.", (BY,), []),
+        ("Go to [9, 9]. Be back by 16:30.", (SLOW.format(2),), ["be back by 16:30"]),
+        ("Be back by 16:30, go to [9, 9].", (), ["be back by 16:30"]),
+        ("Go to [9, 9]. Stay away from the wreck at 40,9.", (NEAR,), []),
+        ("Go to [9, 9]. Stay away from the wreck at 40,8.", (NEAR,), ["stay away from the wreck at 40,8"]),
+        ("Go to [9, 9]. Stay away from the wrecks.", (NEAR,), []),
+        ("Go to [9, 9]. Stay away from the pontoons.", (NEAR,), ["stay away from the pontoons"]),
+        ("Go to [9, 9]. Do not go beyond x = 9.", (), ["do not go beyond x = 9"]),
+        ("Go to [9, 9]. Do not go beyond x = 120.", (), ["do not go beyond x = 120"]),
+        ("Go to [9, 9]. Do not go beyond boat 120.", (), []),
+    ],
+)  # fmt: skip
+def test_a_limit_is_kept_by_a_limit_or_a_value_and_else_lost(
+    command: str, limits: tuple[str, ...], words: list[str]
+) -> None:
+    found = [one for one in lost(command, to(9, 9), limits=limits) if one.startswith("limit-lost")]
+    assert [one.split(":", 1)[1] for one in found] == words
+
+
+def test_a_row_is_done_everywhere_or_told() -> None:
+    row = "Hold a minute at 1,9, 2,9 and 3,9."
+    assert lost(row, *at(1), to(2, 9), to(3, 9)) == []
+    assert lost(row, *at(1), *at(2), to(3, 9)) == ["value-lost:[3, 9]"]
+    assert lost(row, to(1, 9), *at(2), *at(3)) == ["value-lost:[1, 9]"]
+    look = task("FeatureStare", {"target_feature": "board"}, [step("VisualStationKeep")])
+    assert lost(row, *at(1), to(2, 9), look, to(3, 9)) == []

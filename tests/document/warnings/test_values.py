@@ -1,0 +1,119 @@
+"""Values in steps and tasks that nobody said, and how they are shown."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from planner_ft.document import apply, revise
+
+from ...documents import USV, document, step, task
+
+
+def texts(plan: dict[str, Any], kind: str = "skill-value-not-said") -> list[str]:
+    return [one["text"] for one in plan["warnings"] if one["kind"] == kind]
+
+
+def to(*steps: dict[str, Any], prompt: str = "Go to [30, 40].") -> dict[str, Any]:
+    return task("Transit", {"target_position": [30, 40]}, [*steps], prompt)
+
+
+GO = step("GoToXY", {"x": 30, "y": 40})
+COMMAND = "Go to [30, 40]."
+
+
+@pytest.mark.parametrize(
+    ("steps", "said"),
+    [
+        ([GO], []),
+        ([GO, step("StationKeep", {"time": 45})], ["StationKeep has time 45 s"]),
+        ([GO, step("StationKeep", {"time": 45, "radius": 3})], ["StationKeep has time 45 s", "StationKeep has radius 3 m"]),
+        ([GO, step("GoToXY", {"x": 31, "y": 40})], ["GoToXY has waypoint [31, 40]"]),
+        ([step("GoToXY", {"x": 30, "y": 40, "yaw": 77})], ["GoToXY has yaw 77 deg"]),
+    ],
+)  # fmt: skip
+def test_values_of_steps_are_shown_with_their_unit(
+    steps: list[dict[str, Any]], said: list[str]
+) -> None:
+    found = texts(document([to(*steps)], command=COMMAND))
+    assert [one.split(": ")[1].split(",")[0] for one in found if "[" not in one] == [
+        one for one in said if "[" not in one
+    ]
+    assert len(found) == len(said)
+
+
+def test_what_was_said_added_or_set_is_not_questioned() -> None:
+    hold = step("StationKeep", {"time": 45})
+    assert texts(document([to(GO, hold)], command="Go to [30, 40], wait 45 s.")) == []
+    assert texts(document([to(GO, hold, prompt="Wait 45 s at [30, 40].")], command=COMMAND)) == []
+    plan = document([to(GO, hold)], command=COMMAND)
+    where = {"kind": "skill", "task": "t1", "role": "navigation", "index": 0}
+    moved = apply(plan, {**where, "step": 0, "name": "yaw", "value": 9}, USV)
+    assert len(texts(moved)) == 1, "the hold is still the model's"
+    held = apply(plan, {**where, "step": 1, "name": "radius", "value": 9}, USV)
+    assert len(texts(held)) == 1 and "45 s" in texts(held)[0]
+    assert texts(apply(plan, {**where, "step": 1, "name": "time", "value": 50}, USV)) == []
+    skills = {"kind": "skills", "task": "t1", "skill_sequence": [GO, hold, hold]}
+    assert len(texts(apply(plan, skills, USV))) == 1
+    stale = apply(plan, {"kind": "prompt", "task": "t1", "text": "Go."}, USV)
+    assert texts(stale) == []
+    marked = {
+        **plan,
+        "tasks": [
+            {
+                **plan["tasks"][0],
+                "added": [
+                    {
+                        "step": 1,
+                        "role": "navigation",
+                        "name": "StationKeep",
+                        "kind": "vehicle",
+                        "note": "",
+                    }
+                ],
+            }
+        ],
+    }
+    assert texts(revise(marked, USV)) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "shown"),
+    [
+        ("sectors", 7, "sectors is 7,"),
+        ("wait", 9.5, "wait is 9.5 s,"),
+        ("overlap", 30, "overlap is 30 %,"),
+    ],
+)
+def test_values_of_tasks_are_shown_with_their_unit(name: str, value: float, shown: str) -> None:
+    turns = [step("RotateToHeading", {"heading": heading}) for heading in (0, 180)]
+    look = task("HorizontalPanorama", {name: value}, turns)
+    found = texts(document([look], command="Take a panorama."), "value-not-said")
+    assert [one for one in found if shown in one]
+
+
+def test_a_long_text_that_nobody_said_is_cut_to_60_characters() -> None:
+    for count in (60, 61):
+        search = task("SearchAndDetect", {"target_description": "x" * count}, [step("StationKeep")])
+        (found,) = texts(document([search], command="Find it."), "value-not-said")
+        assert found.count("x") == 60
+
+
+def test_a_place_that_follows_is_named_only_where_a_value_is_lost() -> None:
+    command = "Go to [30, 40], then 10 m further north{}."
+    tasks = [
+        to(GO),
+        task("Transit", {"target_position": [30, 50]}, [step("GoToXY", {"x": 30, "y": 50})]),
+    ]
+    whole = document(tasks, command=command.format(""))
+    assert texts(whole, "value-not-said") == []
+    lost = document(tasks, command=command.format(", hold ten minutes"))
+    assert texts(lost, "value-not-said") == [
+        "Task 2, Transit: target_position is [30, 50], which is worked out and not said."
+    ]
+
+
+def test_a_command_with_what_could_not_be_read_has_a_note() -> None:
+    kinds = [one["kind"] for one in document([to(GO)], command=COMMAND)["warnings"]]
+    assert "unread-command" not in kinds
