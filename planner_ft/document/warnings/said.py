@@ -182,8 +182,8 @@ def repeats(case: Case) -> Iterator[Warning]:
     text, found = case.text, dict[int, tuple[float, int]]()
     for number in case.numbers:
         if number.unit is None and number.value >= 2 and number.value.is_integer():
-            words = itertools.islice(WORD.finditer(text, number.end), 2)
-            counted = (case.words["repeats"].match(text, word.start()) for word in words)
+            first = itertools.islice(WORD.finditer(text, number.end), 2)
+            counted = (case.words["repeats"].match(text, word.start()) for word in first)
             if behind := next(filter(None, counted), None):
                 found[behind.end()] = number.value, number.start
     for count, name in ((2.0, "twice"), (3.0, "thrice")):
