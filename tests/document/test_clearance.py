@@ -318,6 +318,7 @@ def test_the_standoff_is_the_limits_the_tasks_or_the_vehicles_and_never_below_th
     assert standoffs(go, constraints=every) == {"the mast": 15}
     assert standoffs(go, constraints=[far, every[0]]) == {"the mast": 30}
     assert standoffs(task("PerformOrbit", {**ring, "radius": 7}, [])) == {"[90, 0]": 7}
+    assert standoffs(task("PerformOrbit", {**ring, "radius": 0.5}, [])) == {"[90, 0]": 0.5}
     both = [task("PerformOrbit", {**ring, "radius": radius}, []) for radius in (7, 9)]
     assert standoffs(*both) == {"[90, 0]": 7}
     assert standoffs(task("PerformOrbit", ring, [])) == {"[90, 0]": 10}

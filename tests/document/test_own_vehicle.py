@@ -97,3 +97,23 @@ def test_tags_that_nothing_checks_are_named(rover: Path) -> None:
     path.write_text("\n".join([json.dumps(record, separators=(",", ":")), *rest, ""]))
     text = {part.file: part.text for part in check_vehicle(str(rover))}["mission/"]
     assert "tags about tasks of other vehicles are not checked: rule.dock" in text
+
+
+def test_the_problems_of_a_set_are_counted(rover: Path) -> None:
+    path = rover.parent / "mission" / "test.jsonl"
+    right = path.read_text()
+    for count, more in ((1, ""), (2, " (and 1 more)"), (3, " (and 2 more)")):
+        path.write_text(right + "{\n" * count)
+        text = {part.file: part for part in check_vehicle(str(rover))}["mission/"].text
+        assert text.endswith(more) and ("more)" in text) == bool(more), text
+
+
+def test_a_part_is_a_line_with_what_it_serves(rover: Path) -> None:
+    parts = {part.file: str(part) for part in check_vehicle(str(rover))}
+    assert parts["my_rover.logic.toml"].startswith("missing  my_rover.logic.toml")
+    assert parts["my_rover.logic.toml"].endswith(" (bench)")
+    assert " tasks, " in parts["my_rover.toml"] and "no task lists" not in parts["my_rover.toml"]
+    assert "no command asks for" not in parts["my_rover.commands.jsonl"]
+    rover.with_suffix(".commands.jsonl").unlink()
+    found = {part.file: part for part in check_vehicle(str(rover))}["my_rover.commands.jsonl"]
+    assert found.state == "missing" and "no synthetic missions" in found.text

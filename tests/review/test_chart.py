@@ -100,3 +100,118 @@ def test_without_braille_there_is_only_ascii() -> None:
             path((0, 0), (30, 40), circles=(Circle("t1", (0, 0), 10, 90),)), braille=False
         )
     )
+
+
+ANGLE = path((0, 0), (100, 0), (100, 50))
+AROUND = path(
+    (0, 0),
+    (50, 0),
+    circles=(Circle("t1", (50, 0), 30, None),),
+    boundaries=(Boundary("t1", 0, ((-20, -40), (90, -40), (90, 40))),),
+)
+DRAWINGS: list[tuple[Track, int, int, bool, str, str]] = [
+    (
+        ANGLE,
+        30,
+        8,
+        False,
+        """
+                       1
+                       .
+                       .
+                       .
+                       .
+ H......................
+""",
+        "|-----------| 50 m",
+    ),
+    (
+        ANGLE,
+        30,
+        8,
+        True,
+        """
+                       1
+                       ⢸
+                       ⢸
+                       ⢸
+                       ⢸
+ H⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣸
+""",
+        "├───────────┤ 50 m",
+    ),
+    (
+        path((0, 0), (60, -60)),
+        20,
+        6,
+        True,
+        """ H
+ ⠈⠢⡀
+   ⠈⠢⡀
+     ⠈⠑⢄
+        ⠑⢄
+          1""",
+        "├────────────────┤ 100 m",
+    ),
+    (
+        AROUND,
+        40,
+        14,
+        True,
+        """
+                               ⡠⠒⡇
+                 ⢀⣀⠤⠤⠤⠤⠤⣀⡀  ⡠⠔⠉  ⡇
+               ⡠⠔⠉       ⢈⠷⢮     ⡇
+             ⢀⠞⠁      ⢀⠤⠊⠁  ⠑⡄   ⡇
+             ⡎      ⡠⠒⠁      ⠘⡄  ⡇
+            ⢸    ⡠⠔⠉          ⡇  ⡇
+      H⠉⠉⠉⠉⠉⢹⠉⣉⠝⠋⠉⠉⠉⠉1        ⡇  ⡇
+           ⢀⠤⢏               ⢠⠃  ⡇
+        ⢀⡠⠒⠁ ⠈⢦⡀            ⡠⠃   ⡇
+      ⡠⠔⠁      ⠑⠢⣀       ⢀⡴⠚     ⡇
+   ⣀⠔⠊           ⠈⠉⠒⠒⠒⠒⠒⠉⠁       ⡇
+ ⣤⣊⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⡇
+""",
+        "├───────────────┤ 50 m",
+    ),
+]
+
+
+@pytest.mark.parametrize(("track", "columns", "rows", "braille", "drawn", "bar"), DRAWINGS)
+def test_a_whole_drawing(
+    track: Track, columns: int, rows: int, braille: bool, drawn: str, bar: str
+) -> None:
+    drawing, legend = sketch(track, columns, rows, braille)
+    assert drawing == drawn.split("\n")
+    assert legend == [f"{bar}   north is up   H home   1, 2, ... where that task ends"]
+
+
+def test_a_drawing_has_78_columns_and_22_rows_unless_another_size_is_asked_for() -> None:
+    wide, high = path((0, 0), (1000, 0)), path((0, 0), (0, 1000))
+    for track in (wide, high):
+        sized = chart(track, ["t1"], (0, 0), columns=78, rows=22, braille=True)
+        assert chart(track, ["t1"], (0, 0)) == sized
+    assert len(chart(high, ["t1"], (0, 0))) == 23
+    assert max(map(len, chart(wide, ["t1"], (0, 0))[:-1])) == 70
+
+
+@pytest.mark.parametrize(("far", "drawn"), [(1e9, True), (-1e9, True), (1.01e9, False)])
+def test_all_within_a_million_kilometres_is_drawn(far: float, drawn: bool) -> None:
+    for end in ((far, 0.0), (0.0, far)):
+        shown = "(nothing moves that can be drawn)" not in sketch(path((0, 0), end))[1]
+        assert shown is drawn
+    targets = (Target("pier", (far, 0.0), "t1"),)
+    drawing, legend = sketch(path((0, 0), (9, 0), targets=targets))
+    assert any("*" in line for line in drawing) is drawn and f"* pier at [{far:g}, 0]" in legend
+
+
+def test_what_is_written_first_stays_and_only_the_tasks_of_the_plan_have_a_number() -> None:
+    on_home = Target("pier", (0.0, 0.0), "t1")
+    drawing, _legend = sketch(path((0, 0), (50, 0), targets=(on_home,)))
+    assert not any("*" in line for line in drawing)
+    legs = [
+        Leg(f"t{at}", 0, "GoToXY", "go", ((0, 0), (30.0 * at, 0)), 0.0, 0.0) for at in (1, 2, 3)
+    ]
+    hold = Leg("t2", 1, "StationKeep", "hold", (), 0.0, 9.0)
+    drawing, _legend = sketch(Track((*legs, hold), (), (), (), ()))
+    assert "1" in str(drawing) and "2" in str(drawing) and "3" not in str(drawing)

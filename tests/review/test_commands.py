@@ -202,3 +202,102 @@ def test_another_vehicle() -> None:
     empty = mission_document("Do nothing.", [], {}, drone)
     document = apply(empty, parse_edit(text, empty, drone), drone)
     assert document["tasks"][0]["parameters"] == {known.position_parameter: [3, 4]}
+
+
+@pytest.fixture
+def longer(usv: Vocabulary) -> PlanDocument:
+    """A plan with two steps in its last task, and two questions."""
+    going = go((3, 4), (0, 0))
+    going[1]["perception_skills"] = [{"name": "LogLidarSlice", "parameters": {}}] * 2
+    going[1]["filter_skills"] = [{"name": "ObstacleAvoidance", "parameters": {}}]
+    tasks = [
+        task("SearchAndDetect", {"target_description": "green buoy"}),
+        task("PerformOrbit", {"center": [-99, -99], "radius": 12}, "Circle the green buoy."),
+        task("Transit", {"target_position": [0, 0]}),
+    ]
+    plan = mission_document("Circle it.", tasks, {3: going}, usv)
+    others: list[dict[str, Any]] = [
+        {"task": "t2", "parameter": "radius", "value": 12, "others": [15, 20]},
+        {"task": "t2", "parameter": None, "value": "PerformOrbit", "others": ["SurveyTarget"]},
+    ]
+    return {**plan, "choices": others}
+
+
+def skill(step: int, role: str, index: int, name: str, value: Any) -> dict[str, Any]:
+    where = {"step": step, "role": role, "index": index}
+    return {"kind": "skill", "task": "t3", **where, "name": name, "value": value}
+
+
+@pytest.mark.parametrize(
+    ("text", "edit"),
+    [
+        ("1a", {"kind": "parameter", "task": "t2", "name": "radius", "value": 15}),
+        ("1b", {"kind": "parameter", "task": "t2", "name": "radius", "value": 20}),
+        ("2a", {"kind": "title", "task": "t2", "title": "SurveyTarget"}),
+        ("remove 3.GoToXY", {"kind": "drop", "task": "t3", "name": "GoToXY"}),
+        ("remove 3.2.GoToXY", {"kind": "drop", "task": "t3", "name": "GoToXY", "step": 1}),
+        ("remove 3.1.GoToXY", {"kind": "drop", "task": "t3", "name": "GoToXY", "step": 0}),
+        ("move 3 3", {"kind": "move", "task": "t3", "to": 2}),
+        ("constraint 1", {"kind": "constraint", "at": 0}),
+        ("constraint 2 Hurry up.", {"kind": "constraint", "at": 1, "text": "Hurry up."}),
+        ("insert 4 Diagnostics", {"kind": "insert", "at": 3, "title": "Diagnostics", "parameters": {}, "task_prompt": ""}),
+        ("3.2.x=3", skill(1, "navigation", 0, "x", 3)),
+        ("3.1.x=3", skill(0, "navigation", 0, "x", 3)),
+        ("3.2.LogLidarSlice.scan_angle=3", skill(1, "perception", 0, "scan_angle", 3)),
+        ("3.2.LogLidarSlice#1.scan_angle=3", skill(1, "perception", 0, "scan_angle", 3)),
+        ("3.2.LogLidarSlice#2.scan_angle=3", skill(1, "perception", 1, "scan_angle", 3)),
+        ("3.2.ObstacleAvoidance.min_distance=3", skill(1, "filter", 0, "min_distance", 3)),
+        ("2.center=(1,2)", {"kind": "parameter", "task": "t2", "name": "center", "value": [1, 2]}),
+        ("1.target_description=[1]", {"kind": "parameter", "task": "t1", "name": "target_description", "value": "[1]"}),
+        ("skills 2", {"kind": "ask", "tasks": ["t2"]}),
+        ("skills", {"kind": "ask", "tasks": ["t1"]}),
+        ("origin 54,10", {"kind": "origin", "place": "54,10"}),
+        ("locate red buoy=1,2", {"kind": "locate", "name": "red buoy", "position": [1, 2]}),
+        ("locate Green Buoy=1,2", {"kind": "locate", "name": "green buoy", "position": [1, 2]}),
+    ],
+)  # fmt: skip
+def test_numbers_are_counted_from_one(
+    longer: PlanDocument, usv: Vocabulary, text: str, edit: dict[str, Any]
+) -> None:
+    assert parse_edit(text, longer, usv) == edit
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("0a", "0a: is no question of the plan; there are 2"),
+        ("3a", "3a: is no question of the plan; there are 2"),
+        ("1c", "1c: the question has no such answer; the last is 1b"),
+        ("2b", "2b: the question has no such answer; the last is 2a"),
+        ("remove 0", "task 0: the plan has tasks 1 to 3"),
+        ("remove 4", "task 4: the plan has tasks 1 to 3"),
+        ("remove", "task ?: the plan has tasks 1 to 3"),
+        ("remove 3.0.GoToXY", "such as remove 2.1.GetSeabedDepth"),
+        ("remove 3.1.2.GoToXY", "such as remove 2.1.GetSeabedDepth"),
+        ("constraint 0", "constraint 0: expected its number"),
+        ("constraint", "expected its number"),
+        ("insert 1", "insert 1: expected a place"),
+        ("insert x Diagnostics", "expected a place"),
+        ("insert 1 Transit junk target_position=1,2", "'junk' is no parameter of Transit"),
+        ("3.0.x=3", "Transit: has no step 0; it has 2"),
+        ("3.3.x=3", "Transit: has no step 3; it has 2"),
+        ("1.1.x=3", "SearchAndDetect: has no step 1; it has 0"),
+        ("3.2.LogLidarSlice#3.scan_angle=1", "step 2 has no skill LogLidarSlice#3; it has GoToXY, ObstacleAvoidance, LogLidarSlice"),
+        ("3.x.y=3", "such as 2.1.GoToXY.x"),
+        ("999999999.radius=1", "task 999999999: the plan has tasks 1 to 3"),
+        ("skills 4", "task 4: the plan has tasks 1 to 3"),
+    ],
+)  # fmt: skip
+def test_the_first_and_last_that_can_be_named(
+    longer: PlanDocument, usv: Vocabulary, text: str, sentence: str
+) -> None:
+    with pytest.raises(PlannerError) as caught:
+        parse_edit(text, longer, usv)
+    assert sentence in str(caught.value)
+
+
+def test_a_plan_without_tasks_and_questions_says_so(usv: Vocabulary) -> None:
+    empty = mission_document("Do nothing.", [], {}, usv)
+    for text, sentence in (("remove 1", "the plan has no tasks"), ("1a", "there are none")):
+        with pytest.raises(PlannerError, match=sentence):
+            parse_edit(text, empty, usv)

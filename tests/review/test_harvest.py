@@ -15,7 +15,7 @@ from planner_ft.facts import read
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.review import approve, log_beside, reject
 from planner_ft.review.commands import parse_edit
-from planner_ft.review.harvest import Harvest, harvest_files, text_problems
+from planner_ft.review.harvest import Harvest, _as_commanded, harvest_files, text_problems
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Vocabulary
@@ -249,3 +249,57 @@ def test_the_sentences_of_the_curated_set_are_almost_all_accepted() -> None:
     records = read_jsonl(find_source() / "train.jsonl")
     refused = [record["id"] for record in records if list(text_problems(record, []))]
     assert len(refused) <= len(records) // 50
+
+
+def test_samples_and_reasons_are_a_line_each(tmp_path: Path) -> None:
+    one = {"id": "a", "provenance": {"corrected": ["x", "y"]}}
+    out = tmp_path / "out.jsonl"
+    for count, words in ((1, "1 sample;"), (2, "2 samples;")):
+        samples = {tmp_path / f"{number}.json": one for number in range(count)}
+        lines = list(Harvest(samples, {tmp_path / "z.json": "why"}, out).lines())
+        assert lines[0] == f"{tmp_path / '0.json'}: a: x; y"
+        assert lines[-2] == f"{tmp_path / 'z.json'}: left out: why"
+        assert lines[-1].startswith(f"{out}: {words} train with ") and len(lines) == count + 2
+
+
+def test_an_existing_file_is_overwritten_when_that_is_asked_for(
+    tmp_path: Path, usv: Vocabulary
+) -> None:
+    out = tmp_path / "out.jsonl"
+    out.write_text("old\n")
+    good = reviewed(tmp_path / "good.json", wrong(usv), usv, *CORRECTIONS)
+    with pytest.raises(PlannerError, match="exists"):
+        harvest_files([good], None, out)
+    assert out.read_text() == "old\n"
+    harvest_files([good], log_beside(good), out, overwrite=True)
+    (sample,) = read_jsonl(out)
+    digest = json.loads(good.read_text())["digest"]
+    assert sample["id"] == f"harvest-{digest[:16]}"
+    assert sample["family"].startswith("harvest-") and len(sample["family"]) == 24
+    with pytest.raises(PlannerError, match="no such file"):
+        harvest_files([good], tmp_path / "none.jsonl", tmp_path / "new.jsonl")
+
+
+def test_the_values_of_the_vehicle_are_not_learned(usv: Vocabulary) -> None:
+    own = {"parameters": {"radius": 1, "arc": 2}, "defaults": {"radius": 1, "arc": 3}}
+    assert _as_commanded(own, "Go.", usv)["parameters"] == {"arc": 2}
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("Go to the pier.", []),
+        ("Go to the mast.", ["speaks of 'mast'"]),
+        ("Go to the mast head.", []),
+        ("Go to the qzxv.", ["has a word that neither the command nor the lexicon has: qzxv"]),
+        ("Go to q.", []),
+    ],
+)
+def test_texts_speak_of_nothing_that_was_taken_out(text: str, found: list[str]) -> None:
+    entry = {"task_prompt": text, "parameters": {"a": "mast head", "b": 3, "c": ["pier"]}}
+    expected = {"tasks": [entry], "assumptions": [], "constraints": []}
+    record = {"prompt": "Go to the pier and the mast head.", "expected": expected}
+    problems = list(text_problems(record, ["mast", "pier"]))
+    assert [one in problem for one, problem in zip(found, problems, strict=True)] == [True] * len(
+        found
+    )

@@ -42,6 +42,8 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ("Go to [30, 40], take a panorama, and come home.", [THERE, PANORAMA, BACK], []),
         ("Go to [30, 40], weld the rail and come home.", [THERE, BACK], ["not-planned:weld"]),
         ("Weld the rail.", [], []),
+        ("Go to [30, 40], here we want no panorama, come home.", [THERE, BACK], []),
+        ("Take a panorama but no report, go to [30, 40], come home.", [THERE, BACK], ["not-planned:panorama"]),
         ("Go to [30, 40] and never weld the rail, come home.", [THERE, BACK], []),
         ("Go to [30, 40], weld, no, scratch that, come home.", [THERE, BACK], []),
         ("Go to [30, 40], dock, and come home.", [THERE, BACK], ["not-planned:dock"]),

@@ -186,6 +186,7 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         ("Hold 9 minutes at 9,9, then home. Actually 600 will do.", [*HELD, to(0, 0)], []),
         ("Hold 9 s at 9,9, then home. Actually 2 will do.", [to(9, 9), hold(7200), to(0, 0)], ["2"]),
         ("Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.", [*HELD, to(0, 0)], ["8 s", "10 s"]),
+        ("Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.", [to(9, 9), hold(10), to(0, 0)], []),
         ("Circle the mast at 60,60, radius: 15.", [orbit(360)], ["15"]),
         ("Circle the mast at 60,60, the radius of 15.", [orbit(360)], ["15"]),
         ("Circle the mast at 60,60, no radius 15.", [orbit(360)], []),
