@@ -25,7 +25,6 @@ from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
 USV = load_vocabulary()
@@ -81,36 +80,6 @@ ORBIT = mission(
 )
 def test_set_f1(predicted: list[str], expected: list[str], value: float) -> None:
     assert set_counts(predicted, expected).f1 == pytest.approx(value)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "  ",
-        "no",
-        "[]",
-        '"a"',
-        "1",
-        "{",
-        '{"tasks": []} {"tasks": []}',
-        '```json\n{"tasks": []}\n```',
-        'Here: {"tasks": []}',
-        '{"tasks": NaN}',
-        '{"tasks": 1e999}',
-        '{"tasks": "\\ud800"}',
-        "[" * 100_000,
-        '{"a":' + "9" * 5000 + "}",
-    ],
-)
-def test_only_one_json_object_parses(text: str) -> None:
-    assert parse_output(text).plan is None
-    assert parse_output(text).problem
-
-
-def test_white_space_around_an_object_and_objects_themselves_parse() -> None:
-    assert parse_output(' \n{"tasks": []}\n').plan == {"tasks": []}
-    assert parse_output({"tasks": []}).plan == {"tasks": []}
 
 
 def test_hallucination_in_both_readings() -> None:

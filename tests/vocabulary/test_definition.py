@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-import math
+import dataclasses
 import shutil
 import tomllib
 from pathlib import Path
@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED, build_vocabulary, bundled_vocabularies
+from tests.values import changeable
 
 DRONE: dict[str, Any] = tomllib.loads((BUNDLED / "inspection_drone.toml").read_text())
 
@@ -49,6 +50,30 @@ def test_bundled_vocabularies_load_by_name_and_files_by_path(tmp_path: Path) -> 
     by_path = load_vocabulary(str(tmp_path / "inspection_drone.toml"))
     assert by_path.tasks == load_vocabulary("inspection_drone").tasks
     assert by_path.phrases == load_vocabulary("inspection_drone").phrases
+
+    assert by_path.data == tmp_path and not by_path.bundled
+    assert load_vocabulary().data == Path("data") and load_vocabulary().bundled
+    assert load_vocabulary("inspection_drone").data == Path("data/inspection_drone")
+    unsaved = dataclasses.replace(by_path, path=None)
+    assert unsaved.data == Path("data/inspection_drone") and not unsaved.bundled
+    assert unsaved.beside(".phrases.toml") == {} != by_path.beside(".phrases.toml")
+
+
+def test_what_is_loaded_cannot_be_changed() -> None:
+    assert changeable("planner_ft.vocabulary") == []
+
+
+def test_only_a_skill_that_goes_somewhere_has_coordinates() -> None:
+    def names(skill: str) -> list[str]:
+        return [one.name for one in usv.skill[skill].coordinates]
+
+    usv = load_vocabulary()
+    assert names("GoToXY") == ["x", "y"] and names("StationKeep") == names("ArcTurn") == []
+    places = {title: usv.task[title].position_parameter for title in ("Transit", "KeepStation")}
+    assert places == {"Transit": "target_position", "KeepStation": None}
+    assert [task.title for task in usv.tasks if task.docks] == ["DockingApproach"]
+    assert not any(one.required for one in usv.task["FollowTarget"].parameters)
+    assert not usv.task["Transit"].leaves and usv.task["DriftAudit"].leaves
 
 
 def test_an_unknown_vocabulary_names_the_bundled_ones() -> None:
@@ -87,51 +112,6 @@ def test_all_mistakes_are_reported_at_once() -> None:
         "unknown key 'colour'",
     ):
         assert part in message
-
-
-@pytest.mark.parametrize(
-    ("parameter", "message"),
-    [
-        ({"name": "height", "type": "number", "minimum": 5, "maximum": 1}, "the smaller one first"),
-        ({"name": "height", "type": "number", "minimum": 5}, "stand together"),
-        (
-            {"name": "height", "type": "number", "minimum": "low", "maximum": 9},
-            "minimum = 'low' must be a number",
-        ),
-        ({"name": "height", "type": "text", "minimum": 1, "maximum": 2}, "only numbers have"),
-        (
-            {"name": "height", "type": "number", "required": "yes"},
-            "required = 'yes' must be true or false",
-        ),
-        ({"type": "number"}, "lacks name"),
-    ],
-)
-def test_a_faulty_parameter_is_named(parameter: dict[str, Any], message: str) -> None:
-    raw = copy.deepcopy(DRONE)
-    raw["task"][0]["parameters"] = [parameter]
-    assert message in refused(raw)
-    assert raw["task"][0]["title"] in refused(raw)
-
-
-def test_references_are_checked() -> None:
-    raw = changed(transit="Beam", locate="Guess")
-    raw["task"][0]["skills"]["navigation"] = ["Warp"]
-    raw["task"].append(copy.deepcopy(raw["task"][1]))
-    message = refused(raw, {"task": {"Nonsense": {}}})
-    assert "is defined twice" in message
-    for part in (
-        "transit = 'Beam' is no task",
-        "locate = 'Guess' is no task",
-        "skill 'Warp' is not defined",
-        "is defined twice",
-        "'Nonsense', which is not defined",
-    ):
-        assert part in message
-
-
-def test_home_and_the_unresolved_place_differ() -> None:
-    assert "the same position" in refused(changed(home=[1, 1], unresolved=[1, 1]))
-    assert "must be a position" in refused(changed(home=[1, math.nan]))
 
 
 JUNK = st.one_of(

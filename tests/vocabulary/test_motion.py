@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from planner_ft.facts.words import known_words
-from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED, bundled_vocabularies
 
@@ -56,33 +55,3 @@ def test_words_of_companion_files_are_no_known_words() -> None:
     ):
         assert word in (BUNDLED / f"usv.{ending}.toml").read_text()
         assert word not in known_words()
-
-
-@pytest.mark.parametrize(
-    ("motion", "said"),
-    [
-        ('[skill.Sail]\nmotion = "go"\n', "skill Sail: it is not defined"),
-        ('[skill.Hover]\nmotion = "swim"\n', "motion = 'swim' must be one of go, hold"),
-        ('[skill.FlyToXY]\nmotion = "go"\nx = "x"\n', "go needs y"),
-        (
-            '[skill.Hover]\nmotion = "hold"\ntime = "duration"\n',
-            "time = 'duration' must name a parameter of type number",
-        ),
-        ('[skill.Hover]\nmotion = "hold"\nspeed = "time"\n', "unknown key 'speed'"),
-        (
-            '[skill.Hover]\nmotion = "boundary"\npolygon = "time"\n',
-            "does not fit the role navigation",
-        ),
-        ('[task.TowerOrbit]\ncenter = "center"\n', "a stand-off needs radius"),
-        (
-            '[task.TowerOrbit]\ncenter = "radius"\nradius = "radius"\n',
-            "center = 'radius' must name a parameter of type position",
-        ),
-        ("skill = 3\n", "needs tables [skill.NAME]"),
-        ("[skills]\n", "unknown key 'skills'"),
-    ],
-)
-def test_a_motion_file_with_mistakes_is_refused(tmp_path: Path, motion: str, said: str) -> None:
-    with pytest.raises(PlannerError) as caught:
-        load_vocabulary(drone(tmp_path, motion))
-    assert said in str(caught.value)

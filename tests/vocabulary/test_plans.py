@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import json
+import math
+import sys
 from typing import Any
 
 import jsonschema
@@ -21,7 +23,9 @@ from planner_ft.vocabulary.plans import (
     check_level,
     plan_names,
     plan_problems,
+    task_problems,
     value_problem,
+    without_working,
 )
 from planner_ft.vocabulary.schema import plan_schema
 
@@ -214,6 +218,126 @@ def go(**more: Any) -> dict[str, Any]:
 )
 def test_problems_say_where_and_what(plan: Any, problem: str) -> None:
     assert problem in plan_problems("mission", plan, USV, strict=True)
+
+
+def step(**more: Any) -> dict[str, Any]:
+    return {
+        "skill_sequence": [
+            {
+                "navigation_skill": {"name": "StationKeep", "parameters": {}},
+                **{key: [] for key in ("filter_skills", "perception_skills")},
+                **{key: [] for key in ("stop_conditions", "failure_modes", "expected_outputs")},
+                **more,
+            }
+        ]
+    }
+
+
+STEP, SKILL = "skill_sequence[0]", {"name": "GoToXY", "parameters": {"x": 1, "y": 2}}
+
+
+@pytest.mark.parametrize(
+    ("level", "plan", "problems"),
+    [
+        ("mission", go(), []),
+        ("mission", None, ["a JSON object is expected, not null"]),
+        ("mission", 3, ["a JSON object is expected, not a number"]),
+        ("task", "x", ["a JSON object is expected, not a string"]),
+        ("mission", {**go(), "more": 1}, ["unknown key 'more'"]),
+        ("mission", {**go(), "tasks": 1.5}, ["tasks: a list is expected, not a number"]),
+        ("mission", {**go(), "tasks": [True]}, ["tasks[0]: an object is expected, not a boolean"]),
+        (
+            "mission",
+            {**go(), "constraints": {}},
+            ["constraints: a list is expected, not an object"],
+        ),
+        (
+            "mission",
+            {**go(), "constraints": ["x", 1]},
+            ["constraints[1]: a string is expected, not a number"],
+        ),
+        ("mission", go(task_prompt=None), ["tasks[0].task_prompt: a string is expected, not null"]),
+        ("mission", go(title=3), ["tasks[0].title: a string is expected, not a number"]),
+        ("mission", go(parameters=[]), ["tasks[0].parameters: an object is expected, not a list"]),
+        ("mission", go(note=""), ["tasks[0]: unknown key 'note'"]),
+        ("task", step(), []),
+        ("task", {"skill_sequence": {}}, ["skill_sequence: a list is expected, not an object"]),
+        ("task", step(navigation_skill=SKILL), []),
+        (
+            "task",
+            step(navigation_skill=3),
+            [f"{STEP}.navigation_skill: an object is expected, not a number"],
+        ),
+        (
+            "task",
+            step(filter_skills=[SKILL]),
+            [
+                f"{STEP}.filter_skills[0]: GoToXY cannot stand as filter skill, only as navigation"
+                " skill"
+            ],
+        ),
+        (
+            "task",
+            step(perception_skills=[{"name": "Warp", "parameters": {}}]),
+            [f"{STEP}.perception_skills[0]: 'Warp' is no skill name of the vocabulary"],
+        ),
+        (
+            "task",
+            step(navigation_skill={"name": "GoToXY", "parameters": {"x": True, "y": 2}}),
+            [f"{STEP}.navigation_skill.parameters.x: True is no number"],
+        ),
+        (
+            "task",
+            step(stop_conditions=[None]),
+            [f"{STEP}.stop_conditions[0]: a string is expected, not null"],
+        ),
+    ],
+)
+def test_all_problems_of_a_plan_are_said_once(level: Level, plan: Any, problems: list[str]) -> None:
+    assert plan_problems(level, plan, USV, strict=True) == problems
+
+
+def test_problems_of_one_task_are_said_without_its_place() -> None:
+    (task,) = go()["tasks"]
+    assert task_problems({**task, "id": "t1"}, USV) == []
+    assert task_problems({**task, "title": "Sail"}, USV) == [
+        "'Sail' is no task title of the vocabulary"
+    ]
+    assert task_problems({**task, "parameters": {"target_position": [1]}}, USV) == [
+        "parameters.target_position: [1] is no position [x, y]"
+    ]
+
+
+LARGEST = sys.float_info.max
+
+
+@pytest.mark.parametrize(
+    ("kind", "right", "wrong"),
+    [
+        (
+            "number",
+            (0, -1.5, LARGEST, -LARGEST),
+            (True, "1", None, math.inf, -math.inf, math.nan, 10**309),
+        ),
+        ("integer", (3, 3.0, -2), (3.5, True, "3")),
+        ("text", ("x", " x "), ("", " ", 3)),
+        ("id", ("x", 3, 4.0), ("", 3.5, True)),
+        ("texts", ([], ["x"]), ("x", [""], [3])),
+        ("position", ([1, 2],), ([1], [1, 2, 3], ["1", 2], {"x": 1, "y": 2}, (1, 2))),
+        ("polygon", ([[0, 0]] * 3, [[0, 0]] * 4), ([[0, 0]] * 2, [[0, 0]] * 2 + [[0]], "abc")),
+    ],
+)
+def test_a_value_is_of_its_type(kind: Any, right: tuple[Any, ...], wrong: tuple[Any, ...]) -> None:
+    one = Parameter("it", kind)
+    assert [value_problem(value, one) for value in right] == [None] * len(right)
+    assert all(value_problem(value, one) for value in wrong)
+
+
+def test_the_working_before_a_skill_sequence_is_taken_apart() -> None:
+    text = ' {"working":"1+1=2","skill_sequence":[]}'
+    assert without_working(text) == ('{"skill_sequence":[]}', "1+1=2")
+    for other in ('{"skill_sequence":[]}', '{"working":"x","tasks":[]}', ""):
+        assert without_working(other) == (other, "")
 
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=["usv", "drone"])
