@@ -24,7 +24,7 @@ PASSED = 3
 """Words between a number and its unit: "quarter of a nautical mile"."""
 
 _TOKEN = re.compile(
-    r"\d{1,3},\d{3}(?=\s?(?:m|metres|meters|s|seconds)\b)"
+    r"\d{1,3}(?:,\d{3})+(?=\s?(?:m|metres|meters|s|seconds)\b)"
     rf"|(?:\d+\s?)?[{''.join(lists.VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
     r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
@@ -218,6 +218,10 @@ class Row:
                 current += SMALL[word]
             elif word == "thousand":
                 total, current = total + max(current, 1) * 1000, 0.0
+            elif word == "hundred" and current >= 100 and found[1:]:
+                # "Two hundred and one hundred" are two.
+                found.pop()
+                break
             elif word in SCALES:
                 current = max(current, 1) * SCALES[word]
             else:

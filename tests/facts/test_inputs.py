@@ -139,3 +139,160 @@ def test_points_of_an_area_follow_from_its_middle_its_corners_and_its_lanes() ->
     assert {end for end in ends if middle.has_shape_through(end)} == lanes
     shared = Ground(**nothing | {"counts": (5,)}, sizes=())
     assert shared.spacings(20, 10) == (5, 2.5)
+
+
+LENGTH, HOURS, COUNT = (Parameter("it", "number", unit) for unit in ("m", "h", None))
+SPEED, TURN = Parameter("it", "number", "m/s"), Parameter("it", "number", "deg")
+PANORAMA = {"task": "HorizontalPanorama", "parameters": {"sectors": 3}}
+STAY = {"task": "KeepStation", "parameters": {"duration": 240}}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "record", "parameter", "values"),
+    [
+        ("At 5 m.", {}, LENGTH, {5}),
+        ("At 5 m, then twice as far.", {}, LENGTH, {5, 10}),
+        ("At 5 m, then half the distance, then thrice.", {}, LENGTH, {5, 2.5, 15}),
+        ("Hold 5 s, then twice as long.", {}, TIME, {5, 10}),
+        ("At 5 m/s, then twice as fast.", {}, SPEED, {5}),
+        ("Hold.", STAY, TIME, {240}),
+        ("Hold twice as long.", STAY, TIME, {240, 480}),
+        ("Hold.", STAY, HOURS, {240 / 3600}),
+        ("Hold.", STAY, LENGTH, set()),
+        ("Hold.", STAY, COUNT, {240}),
+        ("Hold.", {"task": "Sail", "parameters": {"it": [7, "8", [9]]}}, LENGTH, {7}),
+        ("Turn east, half round.", {}, TURN, {90, 180, 0.5}),
+        ("Turn.", PANORAMA, TURN, {-120, 0, 120, 240}),
+    ],
+)
+def test_the_numbers_that_a_parameter_can_have(
+    prompt: str, record: Any, parameter: Parameter, values: set[float]
+) -> None:
+    assert set(read_input({"prompt": prompt, **record}, USV).values(parameter)) == values
+
+
+PERIMETER = {"task": "BathymetryGridSurvey", "parameters": GRID}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "record", "given"),
+    [
+        ("Go out.", {}, {"places": ((0, 0),), "centres": ((0, 0),)}),
+        (
+            "Go 5 m east of [3, 4] or back, three buoys.",
+            {},
+            {
+                "places": ((3, 4), (0, 0)),
+                "centres": ((3, 4),),
+                "lengths": (5,),
+                "bearings": (90,),
+                "counts": (3, 4, 5),
+                "sizes": ((5, 5),),
+            },
+        ),
+        (
+            "Steer 45 degrees for 5 m, later 6 m, twice as far from the corner.",
+            {},
+            {
+                "places": ((0, 0),),
+                "centres": ((0, 0),),
+                "lengths": (5, 6, 10, 12),
+                "bearings": (45,),
+                "counts": (5, 6),
+                "sizes": tuple(itertools.product((5, 6, 10, 12), repeat=2)),
+                "corners": True,
+            },
+        ),
+        (
+            "Run the grid.",
+            PERIMETER,
+            {
+                "places": ((10, 20), (0, 0)),
+                "centres": ((10, 20),),
+                "lengths": (10, 20),
+                "sizes": ((20, 10),),
+                "spacing": 10,
+            },
+        ),
+        # Another length than the task's own: it may be of another area.
+        (
+            "Run the grid, 7 m around [0, 0].",
+            PERIMETER,
+            {
+                "places": ((10, 20), (0, 0)),
+                "centres": ((10, 20),),
+                "lengths": (7, 10, 20),
+                "counts": (7,),
+                "sizes": tuple(itertools.product((7, 10, 20), repeat=2)),
+            },
+        ),
+        ("Turn.", PANORAMA, {"places": ((0, 0),), "centres": ((0, 0),), "counts": (3,)}),
+        ("Back off -5 m, later 0 m.", {}, {"places": ((0, 0),), "centres": ((0, 0),)}),
+        ("Run a zigzag.", {}, None),
+        ("Go to x 40, then on.", {}, None),
+        ("Go three furlongs.", {}, None),
+        (" and ".join(f"{n} m" for n in range(1, 11)), {}, None),
+        (" to ".join(f"[{n}, 7]" for n in range(1, 13)), {}, None),
+    ],
+)
+def test_what_waypoints_are_derived_from(prompt: str, record: Any, given: Any) -> None:
+    found = read_input({"prompt": prompt, **record}, USV).ground
+    empty = {**dict.fromkeys(("lengths", "bearings", "counts", "sizes"), ()), **(given or {})}
+    assert found == (Ground(**empty) if given is not None else None)
+
+
+def test_nine_lengths_and_twelve_places_are_not_too_many() -> None:
+    lengths, places = (
+        read_input({"prompt": prompt}, USV).ground
+        for prompt in (
+            " and ".join(f"{n} m" for n in range(1, 10)),
+            " to ".join(f"[{n}, 7]" for n in range(1, 12)),
+        )
+    )
+    assert lengths is not None and len(lengths.lengths) == 9
+    assert places is not None and len(places.places) == 12
+
+
+@pytest.mark.parametrize(
+    ("prompt", "value", "parameter", "record", "expected"),
+    [
+        ("Hold.", 241, TIME, STAY, "nobody"),
+        ("Hold 2.", 2, Parameter("it", "integer"), STAY, "stated"),
+        ("Hold.", "240", TIME, STAY, "nobody"),
+        ("Hold.", [10, 20], PLACE, PERIMETER, "stated"),
+        ("Hold.", [10, 21], PLACE, PERIMETER, "nobody"),
+        ("Hold.", [0, 0], WAYPOINT, PERIMETER, "vehicle"),
+        ("Hold.", [0, 0], WAYPOINT, {}, "vehicle"),
+        ("Hold.", [-99, -99], WAYPOINT, {}, "nobody"),
+        ("Hold.", "x", WAYPOINT, {}, "nobody"),
+        ("Hold.", "x", PLACE, {}, "nobody"),
+        ("Hold at x 40, then on.", [7, 8], WAYPOINT, {}, "unread"),
+        ("Hold at x 40, then on.", [[7, 8]], FENCE, {}, "unread"),
+        ("Run a zigzag.", [[7, 8]], FENCE, {}, "nobody"),
+        ("From [5, 6] to [8, 9].", [[5, 6], [8, 9]], FENCE, {}, "stated"),
+        ("From [5, 6] to [8, 9].", [[0, 0], [8, 9]], FENCE, {}, "derived"),
+        ("The red buoy.", ["buoy", "mark"], Parameter("it", "texts"),
+         {"task": "Sail", "parameters": {"note": "old mark"}}, "stated"),
+        ("The red buoy.", ["buoy", "pier"], Parameter("it", "texts"),
+         {"task": "Sail", "parameters": {"note": "old mark"}}, "nobody"),
+        ("The buoy.", "THE old  mark", Parameter("it", "text"),
+         {"task": "Sail", "parameters": {"note": "old mark"}}, "stated"),
+        ("The buoy.", "mark", Parameter("it", "text"), {}, "nobody"),
+        ("Go 30 m north of [4, 5].", [4, 36], PLACE, {}, "nobody"),
+        ("Hold a minute, then twice as long.", 121, TIME, {}, "nobody"),
+        ("Hold a minute, then twice as long.", "120", TIME, {}, "nobody"),
+    ],
+)  # fmt: skip
+def test_kinds_of_evidence(
+    prompt: str, value: Any, parameter: Parameter, record: Any, expected: str
+) -> None:
+    assert kind(prompt, value, parameter, **record) == expected
+
+
+def test_tolerance_holds_for_the_task_s_own_values_too() -> None:
+    source = read_input({"prompt": "Hold.", **STAY}, USV)
+    assert source.evidence(243, TIME).kind == "nobody"
+    assert source.evidence(243, TIME, SCORING).kind == "stated"
+    grid = read_input({"prompt": "Run it.", **PERIMETER}, USV)
+    assert grid.evidence([10.2, 20.3], WAYPOINT).kind == "nobody"
+    assert grid.evidence([10.2, 20.3], WAYPOINT, SCORING).kind == "stated"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
@@ -13,67 +15,232 @@ def states(text: str, value: float, unit: str | None) -> str:
     return read(text).evidence(value, Parameter("it", "number", unit)).kind
 
 
+SAID = """
+    {four minutes = 240 s} | {a kilometre = 1000 m} | for {a minute and a half = 90 s}
+    {two and a half minutes = 150 s} | {half an hour = 1800 s}
+    {three quarters of an hour = 2700 s} | {one point two kilometres = 1200 m}
+    {one decimal five kilometres = 1500 m} | {two hundred and fifty metres = 250 m}
+    heading {one two zero = 120 *} | {half a metre per second = 0.5 m/s}
+    a reading {every minute = 60 s} | a {ten-minute = 600 s} drift | {20 minuets = 1200 s}
+    {1,200 m = 1200 m} | [{1 = 1},{200 = 200}] | {100 = 100} by {60 = 60}
+    {100 = 91.44 m} by {50 yards = 45.72 m} | {20 = 20 m}*{20 m = 20 m}
+    {100 = 30.48 m}x{60 = 18.288 m}x{20 ft = 6.096 m} | {niner zero = 90}, {minus two five = -25}
+    lanes {one zero metres = 10 m} apart | {3m30s = 210 s}
+    {9 minutes = 540 s} and {half an hour = 1800 s} | {two = 2} {five-minute = 300 s} holds
+    hold {two-five minutes = 1500 s} | hold {two = 2}-{three minutes = 180 s}
+    {2/3 = 0.666667} of it | {5 = 5}/{5 = 5} and {5 = 5}/{35 = 35} | {.5 m/s = 0.5 m/s}
+    {two metres a second = 2 m/s} | {18 km/h = 5 m/s} | {a full hour = 3600 s}
+    {three-quarter = 0.75} circle | {one thousand six hundred and seventy-four metres = 1674 m}
+    {quarter of an horu = 900 s} | {one n a half hours = 5400 s} | {every mnute = 60 s}
+    {5 knots = 2.57222 m/s} | {10 mph = 4.4704 m/s} | {2 m s-1 = 2 m/s}
+    {forty five = 45}, {20 percent = 20 %} | {20 per cent = 20 %} of {40 m = 40 m}
+    face {297 = 297} - record the radar | {a minute and three quarters = 105 s}
+    {one and three quarter hours = 6300 s} | {two hours and two thirds = 9600 s}
+    {1 3/4 minutes = 105 s} | {a minute = 60 s} and {three quarters = 0.75} of a turn
+    {a minute = 60 s} and {three quarter = 0.75 *} turns | {50 inches = 1.27 m} | nothing to see
+    hold for {90 s = 90 s} | {1,250,000 m = 1250000 m} and {12,500 seconds = 12500 s}
+    {0.5 m = 0.5 m} | {1e3 m = 1000 m} | {2e+2 metres = 200 m} | {1.5e3 m = 1500 m} | a2e{3 m = 3 m}
+    {1/2 a mile = 926 m} | {3/4 mile = 1389 m} | {2 = 2}/{6 = 6} of it | {7/8 of a mile = 1620.5 m}
+    {½ hour = 1800 s} | {2 ½ hours = 9000 s} | {2½ m = 2.5 m} | {¼ mile = 463 m}, {¾ mile = 1389 m}
+    {⅓ of an hour = 1200 s} | {⅔ of an hour = 2400 s} | {⅛ of a mile = 231.5 m}
+    {1 1/2 hours = 5400 s} | {2 1/4 miles = 4167 m} | {5 = 5} {3/4 = 0.75 *} waypoints
+    {20 and a half metres = 20.5 m} | {20 and one half metres = 20.5 m}
+    {an hour and a quarter = 4500 s} | {an hour and half = 5400 s}
+    {three and three quarters minutes = 225 s} | {three and three quarter minutes = 225 s}
+    {two hours and two quarters = 9000 s} | {an hour and 1/4 = 4500 s} | {minus five metres = -5 m}
+    {negative 5 m = -5 m} | {-5 m = -5 m} | {–5 m = -5 m} | a-{5 m = 5 m} | {5 = 5}-{6 m = 6 m}
+    x{-5 = -5} y{-6 = -6} | x {-5 = -5} y {-6 = -6} | ({3 = 3})-{4 = 4} | {5 = 5} {-6 m = -6 m}
+    {ten = 10} - {5 m = 5 m} | between {5 = 5} - {6 m = 6 m} | {two hundred = 200}
+    {two hundred five = 205} | {two hundred and five = 205} | {two hundred and ninety-five = 295}
+    {two hundred = 200} and {one hundred = 100} | {one hundred twenty three metres = 123 m}
+    {nine hundred ninety nine thousand = 999000} | {two thousand and five = 2005}
+    {two thousand five hundred = 2500} | {one thousand = 1000} | {thousand metres = 1000 m}
+    {a thousand metres = 1000 m} | {a hundred metres = 100 m} | {a couple of metres = 2 m}
+    {a dozen metres = 12 m} | {half a dozen metres = 6 m} | {two dozen metres = 24 m}
+    {three score metres = 60 m} | {twenty five = 25} | {twenty-five metres = 25 m}
+    {thirty = 30} {ten = 10} | {twenty = 20} and {five metres = 5 m}
+    {one two three metres = 123 m} | {one two three four = 1234} | {zero = 0} {five metres = 5 m}
+    {niner five = 95} | {one hundred = 100} {one hundred = 100} | {one = 1 *} {eighty = 80}
+    {two = 2} {twenty-five metres = 25 m} | {one point five metres = 1.5 m}
+    {one point zero five metres = 1.05 m} | {zero point five metres = 0.5 m}
+    {twenty point two five metres = 20.25 m} | {two decimal five m = 2.5 m} | {one = 1 *} point buoy
+    {five = 5} {six metres = 6 m} | {five zero metres = 50 m} | {five = 5}-{six metres = 6 m}
+    {five-seven metres = 57 m} | {five = 5} {six minute = 360 s} holds
+    {seventy one hundred and eighty = 7180} | {fourty metres = 40 m} | {a tenth of a mile = 185.2 m}
+    {two tenths of a mile = 370.4 m} | {a fifth of an hour = 720 s}
+    {a twentieth of an hour = 180 s} | the tenth buoy | a tenth of miles
+    {a third of an hour = 1200 s} | {two thirds of an hour = 2400 s}
+    {two-thirds of a mile = 1234.67 m} | {per minute = 60 s} | {each hour = 3600 s}
+    {every second = 1 s} | an s | a m | a bar | a ° | {every day = 86400 s} | {a mile = 1852 m}
+    {a nautical mile = 1852 m} | {a full minute = 60 s} | {a good solid hour = 3600 s}
+    {a whole nautical mile = 1852 m} | {5 of a nautical mile = 9260 m}
+    {5 = 5} full good whole solid metres | {20 per cent = 20 %} | {20 percent = 20 %}
+    {20 % = 20 %} | {20 = 20} {per hour = 3600 s} | {5 = 5} {per centimetre = 0.01 m}
+    {half a right angle = 45 deg} | {a right angle = 90 deg} | {two right angles = 180 deg}
+    right angle | right-angle turn | every {other minute = 120 s} | every {other day = 172800 s}
+    every other s | every other buoy | {three m = 3 m} {thirty s = 30 s} | {3 m 30 s = 210 s}
+    {3 min 30 sec = 210 s} | {3 min 30 s = 210 s} | {5 m = 5 m} {30 = 30 *} buoys | {40 = 40}S
+    {40 = 40} S | {40 s = 40 s} | {5 m/s = 5 m/s} | {5 m / s = 5 m/s} | {5 m per second = 5 m/s}
+    {5 metres an hour = 0.00138889 m/s} | {5 metres each second = 5 m/s}
+    {5 metres every minute = 0.0833333 m/s} | {5 metres, per second = 5 m/s}
+    {5 metres = 5 m} per buoy | {5 m s-1 = 5 m/s} | {5 m s - 1 = 5 m/s} | {5 km/h = 1.38889 m/s}
+    {5 km per hour = 1.38889 m/s} | {5 km a day = 0.0578704 m/s} | {5 s = 5 s}/m
+    {2 metre = 2 m} second | {2 metre = 2 m} buoy | {4 an hour = 14400 s} | {four an hour = 14400 s}
+    {2 h = 7200 s} {20 min = 1200 s} | {200 = 60.96 m} by {120 feet = 36.576 m}
+    {200 = 200} by {120 = 120} | {100 = 100 m}x{60 = 60 m}x{20 m = 20 m}
+    {100 = 30.48 m} x {60 ft = 18.288 m} and {5 m = 5 m} | {5 m = 5 m} by {3 = 3}
+    {3 = 3 m} × {4 m = 4 m} | {3 = 3 m}*{4 m = 4 m} | the first {5 = 5}, then {6 yards = 5.4864 m}
+    {two = 2 *} cables | a cable away | {2 = 2} cable lengths | {2 = 2} cables' lengths
+    a cable tray | {5 = 5 *} points of the compass | {2 = 2 *} points to starboard
+    {two = 2 *} points further to port | {two = 2 *} points of interest
+    {2 = 2 *} points off the bow | {1.5 = 1.5 *} points on the beam | {5 = 5} cable
+    heading {045 = 45 *} | heading of {045 = 45 *} | steer {45 = 45 *} | course {90 m = 90 m}
+    bearing to {10 = 10 *} | azimuth: {30 = 30 *} | course is {270 = 270 *}
+    of course {5 = 5 *} buoys | {045 = 45 *} | {005 = 5 *} buoys | {45 = 45 *} buoys
+    {5 minutes = 300 s} | {5 mintues = 300 s} | {5 = 5} buoys' ropes | {5 = 5} towards the pier
+    {5 = 5} less | the second hour | {a second = 1 s *} time | {a second = 1 s} buoy
+    {a second = 1 s *} pass over it | {one second = 1 s} | the {one = 1 *} | {one = 1 *} of them
+    the {one two = 12} | at {one = 1}, turn | {one = 1} {five metres = 5 m} | the other {one = 1 *}
+    {half = 0.5 *} | {half = 0.5 *} of it | and {half = 0.5} | {five and half = 5.5}
+    a {quarter = 0.25 *} | a {half = 0.5 *} | P-101 | P101 | pump P-101 at {3 bar = 300000 Pa}
+    11-TK-7 | TK7 | T142 | b2 | for{30 min = 1800 s} | x{40 = 40} | n{40 = 40} | N {40 = 40} | N-40
+    e-5 | y/{5 = 5} | {seven = 7}{5 = 5} | wait{5 = 5} | wait-5 | Radius{5 = 5} | RADIUS5 | radius-5
+    radius_5 | A5 | 4-P-1 | 20-AB-3 valves | until 14:30 hold {5 = 5} | 2:30 | 123:45
+    {1234 = 1234}:{30 = 30} | at 4:30, {6 = 6} | 4:30 and {45 = 45} | {tree minutes = 180 s}
+    {tree metres = 3 m} | the tree | {fife zero = 50} | {niner-five = 95} | {ait-fife = 85}
+    {tree five = 35} | {fower days = 345600 s} | {two = 2} tree
+    at {two hundred = 200} and {one hundred = 100} | {one hundred = 100} {one hundred = 100}
+    {hundred hundred metres = 10000 m}
+"""
+"""Texts with their numbers: {words = value unit}, with a star where they count things."""
+_SAID = re.compile(r"\{(.*?) = (\S+?)(?: ([^ *]+?))?( \*)?\}")
+
+
 @pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("four minutes", [(240, "s")]),
-        ("a kilometre", [(1000, "m")]),
-        ("for a minute and a half", [(90, "s")]),
-        ("two and a half minutes", [(150, "s")]),
-        ("half an hour", [(1800, "s")]),
-        ("three quarters of an hour", [(2700, "s")]),
-        ("one point two kilometres", [(1200, "m")]),
-        ("one decimal five kilometres", [(1500, "m")]),
-        ("two hundred and fifty metres", [(250, "m")]),
-        ("heading one two zero", [(120, None)]),
-        ("half a metre per second", [(0.5, "m/s")]),
-        ("a reading every minute", [(60, "s")]),
-        ("a ten-minute drift", [(600, "s")]),
-        ("20 minuets", [(1200, "s")]),
-        ("1,200 m", [(1200, "m")]),
-        ("[1,200]", [(1, None), (200, None)]),
-        ("100 by 60", [(100, None), (60, None)]),
-        ("100 by 50 yards", [(91.44, "m"), (45.72, "m")]),
-        ("20*20 m", [(20.0, "m"), (20.0, "m")]),
-        ("100x60x20 ft", [(30.48, "m"), (18.288, "m"), (6.096, "m")]),
-        ("niner zero, minus two five", [(90, None), (-25, None)]),
-        ("lanes one zero metres apart", [(10, "m")]),
-        ("3m30s", [(210, "s")]),
-        ("9 minutes and half an hour", [(540, "s"), (1800, "s")]),
-        ("two five-minute holds", [(2, None), (300, "s")]),
-        ("hold two-five minutes", [(1500, "s")]),
-        ("hold two-three minutes", [(2, None), (180, "s")]),
-        ("2/3 of it", [(2 / 3, None)]),
-        ("5/5 and 5/35", [(5, None), (5, None), (5, None), (35, None)]),
-        (".5 m/s", [(0.5, "m/s")]),
-        ("two metres a second", [(2, "m/s")]),
-        ("18 km/h", [(5, "m/s")]),
-        ("a full hour", [(3600, "s")]),
-        ("three-quarter circle", [(0.75, None)]),
-        ("one thousand six hundred and seventy-four metres", [(1674, "m")]),
-        ("quarter of an horu", [(900, "s")]),
-        ("one n a half hours", [(5400, "s")]),
-        ("every mnute", [(60, "s")]),
-        ("5 knots", [(5 * 1852 / 3600, "m/s")]),
-        ("10 mph", [(4.4704, "m/s")]),
-        ("2 m s-1", [(2, "m/s")]),
-        ("forty five, 20 percent", [(45, None), (20, "%")]),
-        ("20 per cent of 40 m", [(20, "%"), (40, "m")]),
-        ("face 297 - record the radar", [(297, None)]),
-        ("a minute and three quarters", [(105, "s")]),
-        ("one and three quarter hours", [(6300, "s")]),
-        ("two hours and two thirds", [(9600, "s")]),
-        ("1 3/4 minutes", [(105, "s")]),
-        ("a minute and three quarters of a turn", [(60, "s"), (0.75, None)]),
-        ("a minute and three quarter turns", [(60, "s"), (0.75, None)]),
-        ("50 inches", [(1.27, "m")]),
-        ("nothing to see", []),
-    ],
+    "marked", [one.strip() for line in SAID.splitlines() for one in line.split("|") if one.strip()]
 )
-def test_numbers_are_read_with_their_unit(text: str, said: list[tuple[float, str | None]]) -> None:
-    found = [(number.value, number.unit) for number in read_numbers(text)]
-    assert [unit for _, unit in found[: len(said)]] == [unit for _, unit in said]
-    assert [value for value, _ in found[: len(said)]] == pytest.approx([value for value, _ in said])
+def test_numbers_are_read_with_their_words_and_unit(marked: str) -> None:
+    found = read_numbers(text := _SAID.sub(r"\1", marked))
+    words, values, units, stars = zip(*_SAID.findall(marked), strict=True) if found else [()] * 4
+    assert tuple(text[one.start : one.end] for one in found) == words
+    assert [one.value for one in found] == pytest.approx([*map(float, values)], rel=1e-5)
+    assert tuple((one.unit or "", one.counts) for one in found) == tuple(
+        (unit, bool(star)) for unit, star in zip(units, stars, strict=True)
+    )
+
+
+VALUES = """
+    at two hundred and one hundred |  | 100 200
+    one hundred one hundred |  | 100
+    one eighty |  | 1 80 180
+    one eighty | deg | 1 80 180
+    two twenty-five metres | m | 2 25 225
+    nine ninety-nine |  | 9 99 999
+    one two three metres | m | 1 2 3 12 23 123
+    five six minute holds | s | 5 360 3360
+    hold two-five minutes | s | 2 300 1500
+    two and a half hour | s | 2 1800 9000
+    at 4 m and a half hour of film | s | 1800
+    at 4 m and a half hour of film | m | 4 4.5
+    half a minute | s | 30
+    hold minute | s | 60
+    for a minute and half a metre | s | 60
+    for a minute and half a metre | m | 0.5
+    2:30 | s | 150 9000
+    from 11:10 to 11:30 | s | 670 690 1200 40200 41400
+    from 23:50 to 00:20 | s | 20 1200 1430 1800 85800
+    11:10 ......... 11:30 | s | 670 690 40200 41400
+    11:10 .......... 11:30 | s | 670 690 40200 41400
+    2 minutes and 30 seconds | s | 30 120 150
+    2 minutes 30 | s | 30 120 150
+    2 h 20 min | s | 8400
+    2 h 20 min 30 s | s | 8430
+    20 min 2 h | s | 1200 7200 8400
+    2 min 90 s | s | 210
+    2 minutes, 30 | s | 30 120
+    2 minutes  30 | s | 30 120
+    5 foot 6 | m | 1.524 1.6764 1.8288 6
+    5 foot 6 inches | m | 0.1524 1.524 1.6764
+    5 foot 12 | m | 1.524 3.6576 12
+    5 foot 6 metres | m | 1.524 6
+    5 yards 6 | m | 4.572 5.4864 6
+    5 foot 0 | m | 0 1.524
+    ten minutes here and five there | s | 5 300 600
+    ten minutes here and fifty there | s | 50 600
+    ten minutes here and 51 there | s | 51 600
+    ten minutes here and two there | s | 2 600
+    ten minutes here and one there | s | 600
+    ten metres here and five there | m | 5 10
+    ten metres here and five buoys | m | 10
+    ten m/s here and five there | m/s | 5 10
+    0 minutes here and five there | s | 0 5
+    twice, thrice and once |  | 1 2 3
+    twice, thrice and once | count | 1 2 3
+    twice, thrice and once | m |
+    40 percent | % | 40
+    0.5 | % | 0.5 50
+    1 | % | 1
+    a quarter overlap | % | 0.25 25
+    65 degrees | °C | 65
+    65 degrees | °F | 65
+    65 degrees | deg | 65
+    30 km | m | 30000
+    30 km | km | 30
+    30 m | km | 0.03
+    24 V | V | 24
+    24 V | m | 24
+    24 V or 12 | V | 12 24
+    24 s | V |
+    3 furlongs | furlong | 3
+    3 furlongs | m | 3
+    7 NTU | NTU | 7
+    [40, 12] 5 m | m | 5
+    40, 12 5 m | m | 5 12 40
+    x 40 y 12 | m |
+    two buoys | m |
+    two buoys | count | 2
+    two cables | m | 370.4
+    half a cable length | m | 92.6
+    2 points to starboard | deg | 2 22.5
+    heading 045 | deg | 45
+    heading 045 | m |
+    three m thirty s | s | 30
+    three m thirty s | m | 3
+    one metre second | m/s | 1
+    drift 4 an hour | s | 4 3600 14400
+    11:10 ....... 11:30 | s | 670 690 1200 40200 41400
+    11:10 and 5 11:30 | s | 5 670 690 40200 41400
+    9:05 | s | 545 32700
+    one eighty three |  | 1 3 80 83 183
+    five eighteen |  | 5 18 518
+    zero fifty |  | 0 50
+    ten fifty |  | 10 50
+    two sixty nine metres | m | 2 9 60 69 269
+    two sixty metres | m | 2 60 260
+    twenty-five six metres | m | 6 25
+    two hundred sixty |  | 60 200 260
+    half a turn | deg | 0.5
+    three quarters of the way round | deg | 0.75
+    once round | deg |
+    all the way round | deg |
+    two thirds round | deg | 0.666667
+    1.5 round | deg | 1.5
+    2 laps | deg | 2
+    2 more | deg | 2
+    a third of a turn | deg | 0.333333
+    three full turns | deg | 3
+    north-east | deg |
+    40 degrees to the west | deg | 40
+    -40 degrees | deg | -40
+"""
+"""Texts, a unit, and all values that a parameter in that unit can have from the text."""
+
+
+@pytest.mark.parametrize("row", VALUES.strip().splitlines())
+def test_all_values_that_a_text_can_give_a_parameter(row: str) -> None:
+    text, unit, values = (part.strip() for part in row.split("|"))
+    found = dict.fromkeys(one.value for one in read(text).numbers(unit or None))
+    assert list(found) == pytest.approx([*map(float, values.split())], rel=1e-5)
 
 
 @pytest.mark.parametrize(

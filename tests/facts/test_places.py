@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
 from planner_ft.facts.places import lone_coordinates, read_positions
+from planner_ft.facts.rows import positions_of, rows_of
 
 
 def stated(text: str, position: list[float]) -> bool:
@@ -116,29 +120,204 @@ def test_a_coordinate_without_a_partner_leaves_positions_open() -> None:
     assert stated(text, [40, 20]) and not stated(text, [41, 20])
 
 
+def rows(table: str) -> list[tuple[str, str]]:
+    """(text, what is read of it) of the lines of a table."""
+    lines = (line.partition("=>") for line in table.strip().splitlines())
+    return [(text.strip(), found.strip()) for text, _, found in lines]
+
+
+def written(text: str, found: Iterable[Any], *names: str) -> str:
+    """What was read as the tables have it: values, <words>, and ! where it is certain."""
+    parts = []
+    for one in found:
+        values = (getattr(one, name) for name in names)
+        said = ",".join("?" if value is None else f"{value:.7g}" for value in values)
+        mark = "!" if getattr(one, "certain", False) else ""
+        parts.append(f"{said} <{text[one.start : one.end]}>{mark}")
+    return "; ".join(parts)
+
+
+POSITIONS = """
+    [40, 12] => 40,12 <40, 12>!
+    (40, 12) => 40,12 <40, 12>!
+    [40 12] => 40,12 <40 12>!
+    x=40 y=12 => 40,12 <40 y=12>!
+    x: 40, y: -12 => 40,-12 <40, y: -12>!
+    y 12 x 40 => 12,40 <12 x 40>; 40,12 <12 x 40>
+    y=12, x=40 => 12,40 <12, x=40>; 40,12 <12, x=40>
+    at 40, 12 => 40,12 <40, 12>!
+    at 40,12 m => 40,12 <40,12 m>
+    near 40 12 => 40,12 <40 12>!
+    40, 12 => 40,12 <40, 12>
+    40 by 12 => 40,12 <40 by 12>
+    40 m by 12 m => 40,12 <40 m by 12 m>
+    40 and 12 => 40,12 <40 and 12>
+    40 comma 12 => 40,12 <40 comma 12>
+    40/12 => 40,12 <40/12>
+    40 east 12 north => 40,12 <40 east 12 north>!
+    40 m east 12 m north => 40,12 <40 m east 12 m north>
+    40 metres to the east, 12 to the north of home => 40,12 <40 metres to the east, 12 to the north>
+    40 west, 12 south => -40,-12 <40 west, 12 south>!
+    40 south 12 east => -40,12 <40 south 12 east>!; 12,-40 <40 south 12 east>!
+    south 40, east 12 => 40,12 <40, east 12>; 12,-40 <40, east 12>
+    east 40 north 12 => 40,12 <40 north 12>!; 12,40 <40 north 12>!
+    north 40 east 12 => 40,12 <40 east 12>!; 12,40 <40 east 12>!
+    easting 40 northing 12 => 40,12 <40 northing 12>; 12,40 <40 northing 12>
+    40E 12N => 40,12 <40E 12>
+    W40 S12 => -40,12 <40 S12>; 40,12 <40 S12>; 12,-40 <40 S12>; -40,-12 <40 S12>
+    40, 40 due east => 40,40 <40, 40>
+    120 east 45 north => 120,45 <120 east 45 north>!
+    from 22/98 westwards => 22,-98 <22/98>; 22,98 <22/98>; -98,22 <22/98>
+    from 22/98 westwards to 30/98 => 22,-98 <22/98>; 22,98 <22/98>; -98,22 <22/98>; 30,98 <30/98>
+    40 then 12 =>
+    40 buoys 12 =>
+    from home 40 12 m => 40,12 <40 12 m>
+    40 from home 12 => 40,12 <40 from home 12>
+    at 16:00 go 5 =>
+    between 08:15 and 9 =>
+    at 24:10, 5 =>
+    at 23:59 =>
+    [1, 2] and [3, 4] => 1,2 <1, 2>!; 3,4 <3, 4>!
+    [1, 2] to [3, 4] or [5, 6] => 1,2 <1, 2>!; 3,4 <3, 4>!; 5,6 <5, 6>!
+    10,20 30,40 => 10,20 <10,20>; 20,30 <20 30>; 30,40 <30,40>
+    10/20 and 30/40 => 10,20 <10/20>; 20,30 <20 and 30>; 30,40 <30/40>
+    corners in km: [1, 2]. Then [3, 4]. => 1,2 <1, 2>!; 3,4 <3, 4>!; 1000,2000 <1, 2>!
+    Go. Corners, in feet: [10, 20]. At [5, 6]. => 10,20 <10, 20>!; 5,6 <5, 6>!; 3.05,6.1 <10, 20>!
+    The positions are in yards. [1, 2] => 1,2 <1, 2>!
+    all in km [1, 2] => 1,2 <1, 2>!; 1000,2000 <1, 2>!
+    in km wading [1, 2] => 1,2 <1, 2>!
+    y 40 and x 30 => 40,30 <40 and x 30>; 30,40 <40 and x 30>
+"""
+
+
+@pytest.mark.parametrize(("text", "found"), rows(POSITIONS))
+def test_positions(text: str, found: str) -> None:
+    assert written(text, read(text).positions, "x", "y") == found
+
+
+GEOGRAPHIC = """
+    54.3217 N 10.1412 E => 54.3217,10.1412 <54.3217 N 10.1412 E>
+    54.3217, -10.1412 => 54.3217,-10.1412 <54.3217, -10.1412>
+    54.321, 10.141 =>
+    54.32 N 10.14 E => 54.32,10.14 <54.32 N 10.14 E>
+    54.3 N 10.1 E =>
+    54.32 north 10.14 east =>
+    N 54.32 E 10.14 =>
+    54°19'18"N 10°08'30"E => 54.32167,10.14167 <54°19'18"N 10°08'30"E>
+    54° 19.3' N, 10° 8.5' W => 54.32167,-10.14167 <54° 19.3' N, 10° 8.5' W>
+    54° N 10° E => 54,10 <54° N 10° E>
+    54° 10° =>
+    lat 54 lon 10 => 54,10 <lat 54 lon 10>
+    latitude: 54, longitude: -10 => 54,-10 <latitude: 54, longitude: -10>
+    lon 10 lat 54 => 54,10 <lon 10 lat 54>
+    lng 10 lat 54 => 54,10 <lng 10 lat 54>
+    54.3217 S =>
+    54°19' N => 54.31667,? <54°19' N>
+    54°19' N then 5 => 54.31667,? <54°19' N>
+    54.3217 N and 10.1412 E by 5 => 54.3217,10.1412 <54.3217 N and 10.1412 E>
+    54.3217 N over 10.1412 E =>
+    54.32171, 10.1412, 5.4217, 1.2412 => 54.32171,10.1412 <54.32171, 10.1412>; 5.4217,1.2412 <5.4217, 1.2412>
+    1234.56789, 5.12345 =>
+"""
+
+
+@pytest.mark.parametrize(("text", "found"), rows(GEOGRAPHIC))
+def test_geographic_positions(text: str, found: str) -> None:
+    assert written(text, read(text).geographic, "latitude", "longitude") == found
+
+
+BEARINGS = """
+    head north => 0 <north>
+    northwest => 315 <northwest>
+    north-west by west => 315 <north-west>; 270 <west>
+    southerly wind, go eastwards => 180 <southerly>; 90 <eastwards>
+    the north-facing wall =>
+    north-bound => 0 <north-bound>
+    NNW => 337.5 <NNW>
+    n =>
+    ne => 45 <ne>
+    it is ne of here => 45 <ne>
+    turn SE => 135 <SE>
+    North 5 => 0 <North>
+    Newton =>
+    head north-west => 315 <north-west>
+    head northwest, then SSE => 315 <northwest>; 157.5 <SSE>
+    lanes north south => 0 <north>; 180 <south>
+    south-bound, east-north-east => 180 <south-bound>; 67.5 <east-north-east>
+"""
+
+
+@pytest.mark.parametrize(("text", "found"), rows(BEARINGS))
+def test_bearings(text: str, found: str) -> None:
+    assert written(text, read(text).bearings, "value") == found
+
+
+TURNS = """
+    once round => 360 <once>
+    half way round => 180 <half>
+    all the way round => 360 <all the way round>
+    all the way =>
+    full circle twice => 360 <full>; 720 <twice>
+    half a circle => 180 <half>
+    three quarters of a turn => 270 <three quarters>
+    2 laps => 720 <2 laps>
+    3 times => 1080 <3 times>
+    1.5 circles => 540 <1.5 circles>
+    1.5 => 540 <1.5>
+    0.75 => 270 <0.75>
+    2/3 => 240 <2/3>
+    2 thirds =>
+    5 of the circle => 1800 <5>
+    a quarter of the way about => 90 <quarter>
+    twice round => 720 <twice>
+    two full orbits => 360 <full>; 720 <two full orbits>
+    two thirds of a circle => 240 <two thirds>
+"""
+
+
+@pytest.mark.parametrize(("text", "found"), rows(TURNS))
+def test_turns(text: str, found: str) -> None:
+    assert written(text, read(text).turns, "value") == found
+
+
 @pytest.mark.parametrize(
-    ("text", "angles"),
+    ("text", "loose"),
     [
-        ("head north-west", [315]),
-        ("head northwest, then SSE", [315, 157.5]),
-        ("Newton", []),
-        ("lanes north south", [0, 180]),
-        ("south-bound, east-north-east", [180, 67.5]),
-        ("the north-facing wall", []),
+        ("x 40, thence on by 5 m for 8 s", (40, 5)),
+        ("x is 40", (40,)),
+        ("at 40 m east of home", (40,)),
+        ("40 north of home", (40,)),
+        ("North 5, then hold 8 s", (5,)),
+        ("the northing is -5", (-5,)),
+        ("coordinates: 5", (5,)),
+        ("x 40 y 5", ()),
+        ("40 metres north of it", ()),
+        ("40 m north face", ()),
+        ("40 north side", ()),
+        ("20 s north", ()),
+        ("go north. 5 buoys", ()),
     ],
 )
-def test_bearings(text: str, angles: list[float]) -> None:
-    assert [bearing.value for bearing in read(text).bearings] == angles
+def test_numbers_of_a_coordinate_without_a_partner(text: str, loose: tuple[float, ...]) -> None:
+    assert read(text).loose == loose
 
 
 @pytest.mark.parametrize(
-    ("text", "angle"),
-    [("half a circle", 180), ("three quarters of a circle", 270), ("two full orbits", 720),
-     ("twice round", 720), ("all the way round", 360), ("a third of the way round", 120),
-     ("two thirds of a circle", 240)],
-)  # fmt: skip
-def test_turns(text: str, angle: float) -> None:
-    assert any(turn.value == pytest.approx(angle) for turn in read(text).turns)
+    ("text", "found"),
+    [
+        ("[1, 2] and [3, 4]", ["1,2 3,4"]),
+        ("[1, 2], (3, 4); then [5, 6].", ["1,2 3,4 5,6"]),
+        ("[1, 2] to [3, 4] or [5, 6]", ["1,2 3,4", "5,6"]),
+        ("from [1, 2] over to [3, 4]", ["1,2", "3,4"]),
+        ("10,20 30,40", ["10,20 30,40"]),
+        ("10/20 and 30/40", ["10,20 30,40"]),
+        ("40,12 m and 5 by 6", []),
+        ("5, 12 then at 30, 40", ["5,12", "30,40"]),
+    ],
+)
+def test_rows_of_positions(text: str, found: list[str]) -> None:
+    rows = rows_of(text, positions_of(text))
+    assert [" ".join(f"{one.x:g},{one.y:g}" for one in row) for row in rows] == found
 
 
 def test_degrees_with_minutes_and_seconds_are_read_whole() -> None:

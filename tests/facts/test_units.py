@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner_ft.facts import read
-from planner_ft.facts.units import converted, named
+from planner_ft.facts.units import base_of, converted, in_base_units, named, unit_at
 from planner_ft.vocabulary import Parameter
 
 SAID = """
@@ -83,3 +83,97 @@ def test_a_unit_that_nobody_knows_is_told_and_converts_to_none() -> None:
     assert converted(7, "bar", "kPa") == pytest.approx(700)
     assert converted(1, "NTU", "NTU") == 1
     assert converted(1, "NTU", "m") is converted(1, "kg", "m") is None
+
+
+@pytest.mark.parametrize(
+    ("name", "base", "factor"),
+    [
+        ("m", "m", 1),
+        ("km", "m", 1000),
+        ("rightangle", "deg", 90),
+        (" kPa ", "Pa", 1000),
+        ("KILOPASCALS", "Pa", 1000),
+        ("kilo", "kg", 1),
+        ("kilos", "kg", 1),
+        ("mW", "W", 0.001),
+        ("MW", "W", 1e6),
+        ("Mw", None, None),
+        ("rpm", "Hz", 1 / 60),
+        ("L/min", "m3/s", 0.001 / 60),
+        ("litres per hectare", "m3/m2", 1e-7),
+        ("kg a minute", "kg/s", 1 / 60),
+        ("kg/NTU", None, None),
+        ("NTU/s", None, None),
+        ("", None, None),
+        (None, None, None),
+    ],
+)
+def test_units_by_name(name: str | None, base: str | None, factor: float | None) -> None:
+    unit = named(name)
+    assert (unit and unit.base) == base
+    assert unit is None or unit.factor == pytest.approx(factor)
+    assert base_of(name) == (base if unit else name)
+
+
+def test_what_is_counted_has_no_base() -> None:
+    assert named("laps") is not None and base_of("laps") is None
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "other", "expected"),
+    [
+        (212, "°F", "°C", 100),
+        (100, "°C", "°F", 212),
+        (0, "K", "°C", -273.15),
+        (7, "bar", "psi", 101.526),
+        (5, "m", "m", 5),
+        (5, None, None, 5),
+        (5, None, "m", None),
+        (5, "m", "s", None),
+        (3, "L/min", "m3/h", 0.18),
+    ],
+)
+def test_conversions(
+    value: float, unit: str | None, other: str | None, expected: float | None
+) -> None:
+    found = converted(value, unit, other)
+    assert found == (expected if expected is None else pytest.approx(expected, rel=1e-5))
+
+
+def test_values_in_base_units_are_those_of_parameters_with_another_unit() -> None:
+    known = {name: Parameter(name, "number", name) for name in ("m", "km", "°C", "K", "NTU")}
+    values = {"m": 5, "km": 2, "°C": 4, "K": 273.15, "NTU": 9, "h": 3}
+    assert in_base_units(values, known) == [2000, 0]
+    assert in_base_units({"km": "2"}, known) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "letters", "base", "words"),
+    [
+        ("kPa", False, "Pa", "kPa"),
+        ("kpascal", False, None, ""),
+        ("Kilopascals high", False, "Pa", "Kilopascals"),
+        ("V", True, "V", "V"),
+        ("V", False, None, ""),
+        ("Va", True, None, ""),
+        ("°", True, None, ""),
+        ("°C", False, "degC", "°C"),
+        ("L/ha", False, "m3/m2", "L/ha"),
+        ("L per ha", False, "m3/m2", "L per ha"),
+        ("L / min", False, "m3/s", "L / min"),
+        ("litres a minute", False, "m3/s", "litres a minute"),
+        ("m/s", False, None, ""),
+        ("km per hour", False, None, ""),
+        ("s per litre", False, None, ""),
+        ("degrees per second", False, "deg/s", "degrees per second"),
+        ("degrees a minute later", False, None, ""),
+        ("% an hour", False, None, ""),
+        ("% per hour", False, "%/s", "% per hour"),
+        ("laps", False, None, ""),
+    ],
+)
+def test_the_unit_at_a_place_of_a_text(
+    text: str, letters: bool, base: str | None, words: str
+) -> None:
+    found = unit_at(f"5 {text}", 2, letters=letters)
+    assert (found[0].base, text[: found[1] - 2]) == (base, words) if base else found is None

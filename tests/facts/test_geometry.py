@@ -93,3 +93,32 @@ def test_a_circle_goes_the_way_that_is_asked_for_and_headings_too():
 
 def test_lanes_are_counted_where_the_spacing_divides_the_side():
     assert (g.lane_count(20, 5), g.lane_count(0.6, 0.2), g.lane_count(20, 6)) == (5, 4, None)
+
+
+@pytest.mark.parametrize("start", g.SQUARE_STARTS)
+def test_a_square_is_the_same_ring_from_wherever_it_starts(start: str) -> None:
+    ring = g.survey_square((10, 20), 5)
+    at = g.SQUARE_STARTS.index(start)
+    assert g.survey_square((10, 20), 5, start) == ring[at:] + ring[:at]
+    back = [*ring[at::-1], *ring[:at:-1]]
+    assert g.survey_square((10, 20), 5, start, clockwise=True) == back
+
+
+def test_lanes_are_run_from_every_corner() -> None:
+    west, east, south, north = 0, 10, 0, 20
+    for corner in g.CORNERS:
+        x = (west, east) if "west" in corner else (east, west)
+        y = (south, north) if "south" in corner else (north, south)
+        along_y = [(x[0], y[0]), (x[0], y[1]), (x[1], y[1]), (x[1], y[0])]
+        along_x = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
+        assert g.lawnmower((5, 10), 10, 20, 10, corner) == along_y
+        assert g.lawnmower((5, 10), 10, 20, 20, corner, "x") == along_x
+    with pytest.raises(ValueError, match="lanes 6 m apart do not fill 10 m"):
+        g.lawnmower((5, 10), 10, 18, 6)
+    assert len(g.lawnmower((5, 10), 10, 18, 6, lanes_along="x")) == 8
+
+
+def test_coordinates_have_two_decimals_and_no_negative_zero() -> None:
+    assert [str(g.tidy(value)) for value in (2.0, -0.001, 1.005001, 1.25)] == [
+        *("2", "0", "1.01", "1.25")
+    ]
