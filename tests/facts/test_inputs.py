@@ -185,7 +185,7 @@ PERIMETER = {"task": "BathymetryGridSurvey", "parameters": GRID}
                 "places": ((3, 4), (0, 0)),
                 "centres": ((3, 4),),
                 "lengths": (5,),
-                "bearings": (90,),
+                "bearings": (3, 90),  # A bare number may be a heading.
                 "counts": (3, 4, 5),
                 "sizes": ((5, 5),),
             },
