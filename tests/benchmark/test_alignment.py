@@ -7,7 +7,13 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import Alignment, align, plan_entries, substitutions
+from planner_ft.benchmark.metrics.alignment import (
+    Alignment,
+    align,
+    plan_entries,
+    replaced,
+    substitutions,
+)
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -199,3 +205,58 @@ def test_a_filter_never_stands_for_a_perception_skill() -> None:
         ("LockHeading", None),
         (None, "DetectObjects"),
     }
+
+
+def test_entries_are_what_has_a_name() -> None:
+    def entries(level: Level, plan: Any) -> list[tuple[str, str, int, bool]]:
+        found = plan_entries(level, plan)
+        return [(one.name, one.role, one.step, one.stated) for one in found]
+
+    odd = {"tasks": ["x", {"title": 5}, {"title": None}, {"title": "A", "parameters": [1]}]}
+    assert entries("mission", odd) == [("5", "task", 1, False), ("A", "task", 3, False)]
+    assert entries("mission", {"tasks": {"title": "A"}}) == entries("task", [1]) == []
+    held = steps(step("StationKeep"), step("GoToXY", ("LockHeading",), ("DetectObjects",)))
+    assert entries("task", held) == [
+        ("StationKeep", "navigation", 0, True),
+        ("GoToXY", "navigation", 1, True),
+        ("LockHeading", "filter", 1, True),
+        ("DetectObjects", "perception", 1, True),
+    ]
+
+
+def test_company_is_a_share_of_the_larger_step() -> None:
+    """The first predicted step has both skills too, and two more that nobody expects."""
+    expected = steps(step("StationKeep", perception=("DetectObjects",)))
+    crowd = step("StationKeep", perception=("DetectObjects", "GetGPSLocation", "OCRScanning"))
+    predicted = steps(crowd, expected["skill_sequence"][0])
+    assert aligned("task", expected, predicted).pairs == ((0, 4), (1, 5))
+
+
+def test_a_sum_of_nearness_decides_between_equals() -> None:
+    """Two tasks of five: the nearest places are kept, not the order of the others."""
+    expected = mission("KeepStation", *["Diagnostics"] * 3, "KeepStation")
+    predicted = mission("Hover", "KeepStation", "Hover", "Hover", "Hover", "KeepStation")
+    assert aligned("mission", expected, predicted).pairs == ((0, 1), (4, 5))
+    once = mission("KeepStation", "Hover", "Hover", "Hover", "Hover", "KeepStation", "Hover")
+    middle = mission("Hover", "Hover", "Hover", "Hover", "KeepStation", "Hover", "Hover")
+    assert (4, 5) in aligned("mission", middle, once).pairs
+
+
+def test_unlabelled_parameters_are_no_reason_to_pair() -> None:
+    expected = {"tasks": [{"title": "PerformOrbit"}, {"title": "Hover"}]}
+    predicted = mission(("PerformOrbit", {"radius": 2}), "Diagnostics", ("PerformOrbit", {}))
+    assert aligned("mission", expected, predicted).pairs == ((0, 0),)
+    stated = mission(("PerformOrbit", {"radius": 2}), ("PerformOrbit", {"radius": 2, "arc": 5}))
+    given = mission(("PerformOrbit", {"radius": 2, "arc": 5}), ("PerformOrbit", {"radius": 2}))
+    assert aligned("mission", stated, given).pairs == ((0, 1), (1, 0))
+
+
+def test_one_entry_stands_for_one_other_and_two_neighbours_come_first() -> None:
+    expected = mission("Diagnostics", "KeepStation", "DriftAudit", transit(0, 0))
+    predicted = mission("Diagnostics", "Hover", "Sail", transit(0, 0))
+    alignment = aligned("mission", expected, predicted)
+    assert replaced(alignment) == {1: 1, 2: 2}
+    assert replaced(aligned("mission", expected, mission("Sail", "Diagnostics"))) == {}
+    one = aligned("mission", mission("KeepStation", "Diagnostics"), mission("Diagnostics", "Hover"))
+    assert replaced(one) == {}
+    assert one.to_json() == {"pairs": [[1, 0]], "missing": [0], "extra": [1]}

@@ -62,6 +62,44 @@ def test_perfect_order_random_order_and_worst_order() -> None:
     assert none["aurc_random"] == 0.1
 
 
+def test_the_figures_of_four_answers_by_hand() -> None:
+    """The two answers of equal confidence count half wrong each: 0, 1/2, 1 and 2 wrong answers
+    among the surest.
+    """
+    found = confidence_figures([0.8, 0.3, 0.95, 0.8], [False, False, True, True])
+    assert found["bins"] == [(0.3, 0, 1), (pytest.approx(0.8), 0.5, 2), (0.95, 1, 1)]
+    assert found["curve"] == pytest.approx([0, 1 / 4, 1 / 3, 2 / 4])
+    assert found["ece"] == pytest.approx((0.3 + 2 * 0.3 + 0.05) / 4)
+    assert found["aurc"] == pytest.approx((1 / 4 + 1 / 3 + 2 / 4) / 4)
+    assert (found["n"], found["wrong"], found["aurc_random"]) == (4, 2, 0.5)
+    # A tenth of four answers is none.
+    assert (found["least_sure_tenth"], found["approved_99"]) == (0, 0.25)
+    nothing = confidence_figures([], [])
+    assert {key for key, value in nothing.items() if value is not None} == {
+        *("n", "wrong", "curve", "bins")
+    }
+    assert confidence_figures([0.4], [True])["least_sure_tenth"] is None
+    with pytest.raises(ValueError):
+        confidence_figures([0.4, 0.5], [True])
+
+
+def test_bins_are_tenths_and_certainty_is_in_the_last() -> None:
+    bins = confidence_figures([1.0, 0.99, 0.9, 0.899, 0.1, 0.0], [True] * 6)["bins"]
+    assert [(round(mean, 4), count) for mean, _share, count in bins] == [
+        *((0.0, 1), (0.1, 1), (0.899, 1), (0.9633, 3))
+    ]
+
+
+def test_up_to_one_wrong_plan_in_a_hundred_may_be_approved() -> None:
+    for count, share in ((100, 1.0), (99, 98 / 99)):
+        order = [1 - place / 1000 for place in range(count)]
+        right = [True] * (count - 1) + [False]
+        assert confidence_figures(order, right)["approved_99"] == pytest.approx(share)
+    tied = confidence_figures([0.9] * 5 + [0.5] * 15, [True] * 5 + [False] * 6 + [True] * 9)
+    # Two of the fifteen doubted ones are in the last tenth, 6/15 of them wrong.
+    assert tied["least_sure_tenth"] == pytest.approx(2 * 6 / 15 / 6)
+
+
 def test_calibration_error_is_nothing_for_the_honest() -> None:
     right = [True, True, True, False]
     assert confidence_figures([0.75] * 4, right)["ece"] == 0

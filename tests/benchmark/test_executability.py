@@ -11,7 +11,7 @@ import pytest
 from planner_ft.benchmark.metrics.failures import executable
 from planner_ft.data.missions import sample_missions
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.replay import replay
+from planner_ft.vocabulary.replay import Stop, replay
 
 USV = load_vocabulary()
 DATA = Path(__file__).parents[2] / "data" / "mission"
@@ -131,17 +131,17 @@ def test_a_report_on_what_is_on_board_needs_no_collecting() -> None:
 
 
 @pytest.mark.parametrize(
-    ("answer", "expected", "stops"),
+    ("answer", "expected", "reason"),
     [
-        (None, plan(), True),
-        (plan(), plan(), False),
-        (plan(), FOUND, True),
-        ({"tasks": 3}, FOUND, True),
+        (None, plan(), "the answer does not parse"),
+        (plan(), plan(), ""),
+        (plan(), FOUND, "nothing is planned"),
+        ({"tasks": 3}, FOUND, "nothing is planned"),
+        ({}, plan(), "nothing is planned"),
     ],
 )
 def test_no_plan_is_not_executable_unless_none_is_wanted(
-    answer: dict[str, Any] | None, expected: dict[str, Any], stops: bool
+    answer: dict[str, Any] | None, expected: dict[str, Any], reason: str
 ) -> None:
     stop = executable(answer, expected, USV)
-    assert (stop is not None) is stops
-    assert stop is None or stop.condition == "plan given"
+    assert stop == (Stop(0, "", "plan given", reason) if reason else None)

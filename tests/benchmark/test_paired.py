@@ -13,10 +13,14 @@ import pytest
 from planner_ft.benchmark.catalogue import Metric
 from planner_ft.benchmark.paired import (
     ENUMERATED,
+    Comparison,
+    Paired,
     adjusted,
+    difference_cell,
     exact_mcnemar,
     exact_swaps,
     holm,
+    p_text,
     paired,
     swaps,
     verdict,
@@ -201,3 +205,117 @@ def test_verdicts_know_which_way_is_better() -> None:
     assert said("latency_s", 0.01, 0.5) == "not told apart"
     assert verdict(MEAN.name, paired(MEAN, {}, {}, 0).difference, None) == "not compared"
     assert paired(MEAN, {}, {}, 0).difference == Estimate(None)
+
+
+@pytest.mark.parametrize(
+    ("name", "difference", "p", "said", "mark"),
+    [
+        ("f1", (0.2, 0.1, 0.3), 0.0499, "better", "▲"),
+        ("f1", (-0.2, -0.3, -0.1), 0.0499, "worse", "▼"),
+        ("f1", (0.2, 0.1, 0.3), 0.05, "not told apart", "·"),
+        ("hallucination", (0.2, 0.1, 0.3), 0.01, "worse", "▼"),
+        ("hallucination", (-0.2, -0.3, -0.1), 0.01, "better", "▲"),
+        ("tokens", (2, 1, 3), 0.01, "higher", "▲"),
+        ("tokens", (-2, -3, -1), 0.01, "lower", "▼"),
+        # An unknown metric is better where it is higher.
+        ("unknown", (0.2, 0.1, 0.3), 0.01, "better", "▲"),
+        # Equal: the whole interval within 0.05 of nothing, for a metric between 0 and 1.
+        ("f1", (0.0, -0.05, 0.05), 1.0, "equal", "≈"),
+        ("f1", (0.0, -0.051, 0.05), 1.0, "not told apart", "·"),
+        ("f1", (0.0, -0.05, 0.051), 1.0, "not told apart", "·"),
+        ("f1", (0.0, None, 0.05), 1.0, "not told apart", "·"),
+        ("f1", (0.0, -0.05, None), 1.0, "not told apart", "·"),
+        ("unknown", (0.0, -0.01, 0.01), 1.0, "equal", "≈"),
+        ("tokens", (0.0, -0.01, 0.01), 1.0, "not told apart", "·"),
+        ("f1", (None, None, None), 0.01, "not compared", ""),
+        ("f1", (0.2, 0.1, 0.3), None, "not compared", ""),
+    ],
+)
+def test_a_comparison_says_its_verdict_and_is_read_back(
+    name: str, difference: tuple[Any, Any, Any], p: float | None, said: str, mark: str
+) -> None:
+    found = Paired(name, 20, 10, 0.5, 0.7, Estimate(*difference), 0.01, 0.02)
+    comparison = Comparison("a", "b", found, p)
+    assert (comparison.verdict, comparison.mark) == (said, mark)
+    record = comparison.to_json()
+    assert Comparison.from_json(record) == comparison
+    assert record == {
+        "first": "a",
+        "second": "b",
+        "metric": name,
+        "first_value": 0.5,
+        "second_value": 0.7,
+        "n": 20,
+        "families": 10,
+        "p": 0.01,
+        "p_mcnemar": 0.02,
+        "p_adjusted": p,
+        "difference": dict(zip(("value", "low", "high"), difference, strict=True)),
+        "verdict": said,
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "interval"),
+    [
+        ("f1", "+0.123", "[-0.001, +0.200]"),
+        ("latency_s", "+0.12", "[-0.00, +0.20]"),
+        ("hallucination", "+12.3", "[-0.1, +20.0]"),
+        ("tokens", "+0.1", "[-0.0, +0.2]"),
+    ],
+)
+def test_a_difference_is_shown_with_its_sign_in_the_unit_of_its_metric(
+    name: str, text: str, interval: str
+) -> None:
+    cell = difference_cell(name, Estimate(0.1234, -0.0012, 0.2), "▲")
+    assert (cell.text, cell.interval, cell.mark) == (text, interval, "▲")
+
+
+def test_p_values_as_tables_show_them() -> None:
+    assert [p_text(p) for p in (None, 0.00099, 0.001, 0.0496, 1.0)] == [
+        *("–", "< 0.001", "0.001", "0.050", "1.000")
+    ]
+
+
+def test_nothing_in_common_or_nothing_to_divide_by_is_no_comparison() -> None:
+    nothing = Paired("parameters", 0, 0, None, None)
+    assert paired(RATIO, {}, {}, 0) == nothing
+    tries = {"a": [{"id": "a", "hits": 0, "tries": 0}], "b": [{"id": "b", "hits": 1, "tries": 2}]}
+    other = {"a": [{"id": "a", "hits": 1, "tries": 2}], "c": [{"id": "c", "hits": 1, "tries": 2}]}
+    assert paired(RATIO, tries, other, 0) == Paired("parameters", 1, 1, None, 0.5)
+    assert paired(RATIO, other, tries, 0) == Paired("parameters", 1, 1, 0.5, None)
+
+
+def test_a_single_family_has_a_difference_without_an_interval() -> None:
+    one, other = (system([value] * 3, "f1", [0] * 3) for value in (0.25, 0.75))
+    found = paired(MEAN, one, other, 0)
+    assert (found.n, found.families, found.difference) == (3, 1, Estimate(0.5))
+    assert found.p == 1.0 and found.p_mcnemar is None
+    # Samples without a family are families of their own.
+    alone = {name: [{**scores[0], "family": ""}] for name, scores in one.items()}
+    assert paired(MEAN, alone, other, 0).families == 3
+
+
+def test_a_rate_that_is_half_right_over_repeats_is_no_mcnemar_test() -> None:
+    whole, half = system([0, 1, 1, 0], "right"), system([0, 1, 0.5, 0], "right")
+    assert paired(RATE, whole, whole, 0).p_mcnemar == 1.0
+    assert paired(RATE, whole, half, 0).p_mcnemar is None
+    assert paired(MEAN, *(system([0, 1], "f1"),) * 2, 0).p_mcnemar is None
+
+
+def test_exact_swaps_of_one_sign_and_of_none() -> None:
+    assert exact_swaps([]) == exact_swaps([0, 0]) == exact_swaps([3, -3]) == 1.0
+    assert exact_swaps([2]) == 1.0 and exact_swaps([1, 1]) == exact_swaps([-1, -1]) == 0.5
+    assert exact_swaps([1] * 5 + [3]) == 2 / 64
+    assert exact_swaps([1] * 5 + [-3]) == pytest.approx(54 / 64)
+
+
+def test_all_swaps_of_few_families_by_hand() -> None:
+    """Differences of 1 and 3 over three families: 4, 2, -2 and -4 when they are swapped."""
+    first, second = np.array([[0, 1], [0, 1], [5, 1]]), np.array([[1, 1], [3, 1], [5, 1]])
+    assert swaps(np.hstack([first, second]), 0) == 2 / 4
+    assert swaps(np.hstack([second, first]), 0) == 2 / 4
+    assert swaps(np.hstack([first, [[1, 1], [0, 1], [5, 1]]]), 0) == 1.0
+    assert swaps(np.hstack([first, first]), 0) == 1.0
+    # A family whose denominators alone differ is swapped, too.
+    assert swaps(np.array([[1, 2, 1, 4], [1, 1, 1, 1]]), 0) == 1.0

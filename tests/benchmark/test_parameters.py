@@ -8,7 +8,12 @@ import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
 from planner_ft.benchmark.metrics.names import Counts, Parameters, compare_parameters
-from planner_ft.benchmark.metrics.values import values_agree
+from planner_ft.benchmark.metrics.values import (
+    agreeing_keys,
+    changed_keys,
+    known_parameters,
+    values_agree,
+)
 from planner_ft.vocabulary import Parameter, load_vocabulary
 
 from .plans import mission
@@ -69,6 +74,93 @@ def test_positions_agree_by_distance(given: list[float], stated: list[float], ag
     assert values_agree(given, stated, Parameter("p", "position"), USV) is agree
 
 
+NUMBER, POLYGON = Parameter("p", "number", "s"), Parameter("p", "polygon")
+RING = [[0, 0], [10, 0], [10, 5], [0, 5]]
+UNRESOLVED = list(USV.unresolved)
+
+
+@pytest.mark.parametrize(
+    ("given", "stated", "parameter", "agree"),
+    [
+        # 2 % of a number, at least half a unit of the second decimal.
+        (10.2, 10, NUMBER, True),
+        (9.8, 10, NUMBER, True),
+        (10.201, 10, NUMBER, False),
+        (-10.2, -10, NUMBER, True),
+        (-10.201, -10, NUMBER, False),
+        (0.005, 0, NUMBER, True),
+        (0.0051, 0, NUMBER, False),
+        (0.105, 0.1, NUMBER, True),
+        (0.1051, 0.1, NUMBER, False),
+        (0.306, 0.3, NUMBER, True),
+        (True, 1, NUMBER, False),
+        ("10", 10, NUMBER, False),
+        (None, 10, NUMBER, False),
+        (True, True, None, True),
+        (1, True, None, False),
+        (None, None, None, True),
+        # 2 % of a place's distance from the origin, half a metre at most.
+        ([10.2, 0], [10, 0], None, True),
+        ([10.21, 0], [10, 0], None, False),
+        ([1000.5, 0], [1000, 0], None, True),
+        ([1000.51, 0], [1000, 0], None, False),
+        ([300.3, 400.4], [300, 400], None, True),
+        (UNRESOLVED, UNRESOLVED, None, True),
+        ([-99, -99.1], UNRESOLVED, None, False),
+        ([1, 2, 3], [1, 2], None, False),
+        ([1, 2], "1, 2", None, False),
+        (["a", 1], ["A", 1.01], None, True),
+        (["a"], ["a", "b"], None, False),
+        ("a", ["a"], None, False),
+        ("The  Red buoy", "red Buoy", None, True),
+        ("red buoys", "red buoy", None, False),
+        (4, "4", Parameter("p", "id"), True),
+        ("4", 4, Parameter("p", "id"), True),
+        (5, 4, Parameter("p", "id"), False),
+        # Rings from any corner, either way round, closed or open.
+        (RING[2:] + RING[:2], RING, POLYGON, True),
+        (RING[::-1], RING, POLYGON, True),
+        ([*RING, RING[0]], RING, POLYGON, True),
+        (RING, [*RING, RING[0]], POLYGON, True),
+        ([RING[0], RING[2], RING[1], RING[3]], RING, POLYGON, False),
+        (RING[:3], RING, POLYGON, False),
+        ([*RING[:3], RING[0]], RING[:3], POLYGON, True),
+        ([], [], POLYGON, True),
+        ([], RING, POLYGON, False),
+        ("ring", RING, POLYGON, False),
+        (RING, "ring", POLYGON, False),
+    ],
+)
+def test_values_agree_up_to_the_labelling_rules(
+    given: Any, stated: Any, parameter: Parameter | None, agree: bool
+) -> None:
+    assert values_agree(given, stated, parameter, USV) is agree
+
+
+def test_a_text_of_up_to_40_characters_is_read_as_a_quantity() -> None:
+    text = "one hundred thousand two hundred minutes"
+    assert len(text) == 40
+    assert values_agree(f" {text} ", 100200 * 60, NUMBER, USV, loose=True)
+    longer = text.replace("two", "nine")
+    assert not values_agree(longer, 100900 * 60, NUMBER, USV, loose=True)
+    assert not values_agree("5 min", 300, None, USV, loose=True)
+    assert not values_agree("5 min 5", 300, NUMBER, USV, loose=True)
+    assert values_agree("x", "X", NUMBER, USV, loose=True)
+
+
+def test_changed_keys_are_those_of_either_side() -> None:
+    given, stated = {"radius": 21, "speed": 2}, {"center": [1, 1], "radius": 20}
+    judged = ("mission", "PerformOrbit", given, stated, USV)
+    assert changed_keys(*judged) == ("center", "radius", "speed")
+    assert changed_keys("mission", "PerformOrbit", {**stated, "radius": 20.1}, stated, USV) == ()
+    assert changed_keys(
+        "mission", "KeepStation", {"duration": "5 min"}, {"duration": 300}, USV
+    ) == ("duration",)
+    assert agreeing_keys("mission", "KeepStation", {"duration": "5 min"}, {"duration": 300}, USV)
+    assert set(known_parameters("task", "GoToXY", USV)) > {"x", "y"}
+    assert known_parameters("mission", "GoToXY", USV) == known_parameters("task", "Sail", USV) == {}
+
+
 def test_lists_are_sets_by_content_and_in_the_order_of_urgency_by_form() -> None:
     urgency = USV.task["SmartDataHarvest"].by_name["target_list"]
     assert values_agree(["b", "The A"], ["a", "b"], urgency, USV, loose=True)
@@ -123,3 +215,22 @@ def test_a_text_with_a_unit_counts_as_a_value_but_the_entry_is_not_right() -> No
     )
     found = compare_parameters("mission", alignment, USV)
     assert (found.right, found.values, found.types) == (0, Counts(1, 1, 1), {"number": (1, 1)})
+
+
+def test_parameters_of_tasks_and_skills_by_their_type() -> None:
+    expected = mission(
+        ("PerformOrbit", {"center": [1, 1], "radius": 20, "colour": "red"}),
+        ("PerformOrbit", {"center": [9, 9], "radius": 30}),
+        "Diagnostics",
+    )
+    predicted = mission(
+        ("PerformOrbit", {"center": [1, 1], "radius": 20, "colour": "red"}),
+        ("PerformOrbit", {"center": [9, 9], "speed": 1}),
+        ("Sail", {"far": 1}),
+        "Diagnostics",
+    )
+    found = counted(expected, predicted)
+    assert (found.right, found.matched) == (2, 3)
+    assert (found.keys, found.keys_overall) == (Counts(4, 5, 5), Counts(4, 6, 5))
+    assert found.values == Counts(4, 5, 5)
+    assert found.types == {"position": (2, 2), "number": (1, 2), "unknown": (1, 1)}

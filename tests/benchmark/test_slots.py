@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
-from planner_ft.benchmark.metrics.facts import Reached, slot_propagation
+from planner_ft.benchmark.metrics.facts import Reached, given_values, slot_propagation
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -135,3 +135,33 @@ def test_at_task_level_stated_values_and_places_must_reach_the_right_skill() -> 
         ]
     }
     assert lost(follow(swapped, "task", record))[0] == Counter(coordinates=1)
+
+
+def test_slots_are_counted_by_what_they_are() -> None:
+    square = [[0, 0], [10, 0], [10, 10]]
+    skills = [
+        ("GoToXY", {"x": 10, "y": 20, "yaw": 30}),
+        ("ArcTurn", {"radius": 5, "delta_yaw": -90}),
+        ("StationKeep", {"time": 60, "note": 7}),
+        ("BoundaryEnforcement", {"poly_coords": square}),
+        ("Sail", {"place": [3, 4], "marks": ["red buoy"], "count": 8}),
+    ]
+    plan = {
+        "skill_sequence": [
+            {"navigation_skill": {"name": name, "parameters": given}} for name, given in skills
+        ]
+    }
+    prompt = (
+        "At (10, 20) face 30 degrees, arc 5 m to 90 degrees, -90 degrees, drift a minute, note 7,"
+        " [0, 0], [10, 0], [10, 10], [3, 4], the red buoy, 8."
+    )
+    record = {"task": "Transit", "parameters": {}, "prompt": prompt, "expected": plan}
+    found = follow(plan, "task", record)
+    assert found.stated == Counter(
+        coordinates=3, angles=2, lengths=1, durations=1, numbers=2, names=1
+    )
+    assert found.in_parameters == found.stated and not found.in_prompt
+    half = copy.deepcopy(plan)
+    half["skill_sequence"][0]["navigation_skill"]["parameters"].pop("y")
+    assert lost(follow(half, "task", record))[0] == Counter(coordinates=1)
+    assert next(given_values("task", plan_entries("task", half), USV)).value == 10

@@ -6,8 +6,11 @@ import pytest
 from planner_ft.benchmark.statistics import (
     bootstrap_mean,
     bootstrap_ratio,
+    cluster_sums,
     clustered_rate,
     effective_size,
+    percentiles,
+    quantile,
     resampled_sums,
     wilson,
 )
@@ -124,3 +127,55 @@ def test_many_clusters_are_resampled_in_blocks_as_few_are(monkeypatch: pytest.Mo
     monkeypatch.setattr(statistics, "BLOCK", 70)
     statistics._drawn.cache_clear()
     assert np.allclose(resampled_sums(sums, 5), whole) and whole.shape == (10_000, 2)
+
+
+@pytest.mark.parametrize(
+    ("counts", "size"),
+    [
+        # Without a variance to go by, samples of one family count as one: 6 / (6 * 4 / 12) ...
+        ([(2, 2)] * 3, 3),
+        ([(0, 2)] * 3, 3),
+        ([(0, 1), (0, 3)], 4 / (10 / 4)),
+        ([(3, 6)], 1),
+        ([(1, 2), (0, 2)], 2),
+        ([(2, 4), (2, 4)], 2),
+        ([(1, 1), (0, 1), (1, 1)], 3),
+        # The effect is at least 1: families no more alike than samples of others, Student's
+        # quantiles for 7 and 3 degrees of freedom 2.3646 and 3.1824.
+        ([(1, 2)] * 4, 8 * (2.3646 / 3.1824) ** 2),
+        # And at most the size of a family: rate 1/2, effect 4 * 2 / 3 held to 2.
+        ([(2, 2), (2, 2), (0, 2), (0, 2)], 4 * (2.3646 / 3.1824) ** 2),
+    ],
+)
+def test_effective_sizes(counts: list[tuple[int, int]], size: float) -> None:
+    assert effective_size(counts) == pytest.approx(size, rel=1e-4)
+
+
+def test_a_quantile_is_bounded_where_enough_values_lie_beyond_it() -> None:
+    assert quantile([], 0.5).value is None
+    assert quantile([3, 1, 2], 0.01).value == 1
+    values = [float(value) for value in range(10, 0, -1)]
+    assert [quantile(values, share).value for share in (0.5, 0.9, 0.91)] == [5, 9, 10]
+    found = quantile([float(value) for value in range(1, 101)], 0.95)
+    assert (found.value, found.low, found.high) == (95, 90, 100)
+    assert quantile([1.0, 2.0], 0.5).to_json() == {"value": 1.0, "low": None, "high": None}
+
+
+def test_sums_over_clusters_and_the_middle_95_percent() -> None:
+    sums = cluster_sums([[1, 2], [3, 4], [5, 6]], ["b", "a", "b"])
+    assert sums.tolist() == [[6, 8], [3, 4]]
+    assert percentiles(np.arange(1001.0)) == pytest.approx((25, 975))
+
+
+def test_resamples_draw_as_many_clusters_as_there_are() -> None:
+    totals = resampled_sums(np.ones((7, 1)), 0)
+    assert totals.shape == (10_000, 1) and set(totals[:, 0]) == {7}
+
+
+def test_a_ratio_without_a_second_cluster_has_no_interval_and_resamples_of_nothing_are_left_out() -> (
+    None
+):
+    one = bootstrap_ratio([1, 9], [2, 10], ["a", "a"], 0)
+    assert (one.value, one.low, one.high) == (pytest.approx(10 / 12), None, None)
+    rare = bootstrap_ratio([0, 1, 0], [0, 2, 0], ["a", "b", "c"], 0)
+    assert (rare.value, rare.low, rare.high) == (0.5, 0.5, 0.5)
