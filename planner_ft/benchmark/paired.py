@@ -101,8 +101,10 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
 def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | None:
     """A sample's numerator and denominator, means over its repeats; None where it says nothing."""
     known = [terms for score in scores if (terms := metric.terms(score))]
-    above, below = (sum(column) for column in zip(*known, strict=True)) if known else (0.0, 0.0)
-    return (above / len(known), below / len(known)) if known else None
+    if not known:
+        return None
+    above, below = (sum(column) / len(known) for column in zip(*known, strict=True))
+    return above, below
 
 
 def _values(sums: statistics.Floats) -> tuple[Any, Any]:

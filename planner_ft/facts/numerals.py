@@ -166,8 +166,6 @@ class Row:
             if found := unit_at(self.text, start, letters=self.letters):
                 return found[0], self.index_from(found[1])
             index += passed < PASSED and self.word(index) in WORDS["beside_unit"]
-        if self.word(index) == "per" and self.word(index + 1) == "cent":
-            return UNITS["percent"], index + 2
         return UNITS.get(self.word(index)), index + 1
 
     def index_from(self, place: int) -> int:

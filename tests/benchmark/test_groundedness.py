@@ -159,6 +159,13 @@ def test_waypoints_that_follow_from_a_grid_are_given_and_others_are_not() -> Non
     assert [given.value for given in found.ungrounded] == [[5, 25]]
 
 
+def test_waypoints_follow_from_those_before_them() -> None:
+    record = {**GRID, "task": "Transit", "parameters": {}}
+    record["prompt"] = "From (40, 5) go 20 m north, again and again."
+    found = judged("task", record, steps(goto(40, 5), goto(40, 25), goto(40, 45), goto(40, 85)))
+    assert (found.judged, [given.value for given in found.ungrounded]) == (4, [[40, 85]])
+
+
 def test_what_stands_beside_a_pair_of_coordinates_is_judged_too() -> None:
     found = judged("task", GRID, steps(("GoToXY", {"x": 0, "y": 15, "mark": "owl"})))
     assert [given.value for given in found.ungrounded] == ["owl"]

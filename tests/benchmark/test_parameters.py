@@ -166,6 +166,8 @@ def test_lists_are_sets_by_content_and_in_the_order_of_urgency_by_form() -> None
     assert values_agree(["b", "The A"], ["a", "b"], urgency, USV, loose=True)
     assert not values_agree(["b", "a"], ["a", "b"], urgency, USV)
     assert not values_agree(["a"], ["a", "b"], urgency, USV, loose=True)
+    assert not values_agree("ab", ["a", "b"], urgency, USV, loose=True)
+    assert not values_agree(["a", 1], ["a", "b"], urgency, USV, loose=True)
 
 
 def test_a_closed_ring_is_the_open_one() -> None:

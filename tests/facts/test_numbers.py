@@ -7,7 +7,7 @@ import re
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
-from planner_ft.facts.numbers import in_unit, read_numbers
+from planner_ft.facts.numbers import in_unit, neighbours, pairs, read_numbers, rows_of_sizes
 from planner_ft.vocabulary import Parameter
 
 
@@ -110,7 +110,7 @@ SAID = """
     {tree metres = 3 m} | the tree | {fife zero = 50} | {niner-five = 95} | {ait-fife = 85}
     {tree five = 35} | {fower days = 345600 s} | {two = 2} tree
     at {two hundred = 200} and {one hundred = 100} | {one hundred = 100} {one hundred = 100}
-    {hundred hundred metres = 10000 m}
+    {hundred hundred metres = 10000 m} | keep {30 fet = 9.144 m} off
 """
 """Texts with their numbers: {words = value unit}, with a star where they count things."""
 _SAID = re.compile(r"\{(.*?) = (\S+?)(?: ([^ *]+?))?( \*)?\}")
@@ -416,3 +416,19 @@ def test_figures_of_a_clock_time_are_no_values() -> None:
     assert [number.value for number in read_numbers(text)] == [75, 75]
     assert {14, 30}.isdisjoint(number.value for number in in_unit(text, "s"))
     assert 150 in [number.value for number in in_unit("Hold for 2:30.", "s")]
+
+
+def test_sizes_that_are_said_together() -> None:
+    def sizes(text: str) -> list[list[float]]:
+        return [[one.value for one in row] for row in rows_of_sizes(text)]
+
+    assert sizes("50 by 60 m, then 7 m; 100x60x20, 5 and 6") == [[50, 60], [100, 60, 20]]
+    assert sizes("7 m, 5 and 6") == sizes("") == []
+
+
+def test_numbers_beside_each_other_are_within_some_characters() -> None:
+    numbers = read_numbers("1 2  3    4")
+    assert [(one.value, two.value) for one, two in pairs(numbers, 2)] == [(1, 2), (2, 3)]
+    assert len(list(pairs(numbers, 9))) == 6
+    found = neighbours(read_numbers("2 min and 30 s, then 5 h"), "s")
+    assert [(one.value, one.start, one.end) for one in found] == [(150, 0, 14)]

@@ -141,6 +141,7 @@ SAID = "Inspect the old pier's ladder, then old-time cable T142 and the pier aga
         ("old tower of steel", []),
         ("old tower", ["old"]),
         ("ier ladder", ["pier's ladder"]),
+        ("the", ["the", "the"]),
     ],
 )
 def test_where_a_phrase_is_said(phrase: str, words: list[str]) -> None:
@@ -168,3 +169,10 @@ def test_of_a_long_text_only_unknown_words_can_be_misspelt() -> None:
     few, many = ("form ladders " + " ".join(f"q{n}" for n in range(count)) for count in (397, 399))
     assert read(few).phrases.missing("from") == []
     assert read(many).phrases.missing("from") == ["from"]
+
+
+def test_a_phrase_is_no_part_of_a_longer_word() -> None:
+    text = "xpier, piers, pierx, pier5 and pier_ or pier"
+    spans = read(text).phrases.spans("pier")
+    assert [start for ((start, _end),) in spans] == [text.index("pier_"), len(text) - 4]
+    assert read("pier").phrases.spans("pier") == [((0, 4),)]
