@@ -161,7 +161,7 @@ def test_waypoints_that_follow_from_a_grid_are_given_and_others_are_not() -> Non
 
 def test_waypoints_follow_from_those_before_them() -> None:
     record = {**GRID, "task": "Transit", "parameters": {}}
-    record["prompt"] = "From (40, 5) go 20 m north, again and again."
+    record["prompt"] = "From (40, 5) head north in legs of 20 m."
     found = judged("task", record, steps(goto(40, 5), goto(40, 25), goto(40, 45), goto(40, 85)))
     assert (found.judged, [given.value for given in found.ungrounded]) == (4, [[40, 85]])
 
