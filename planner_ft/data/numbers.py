@@ -180,7 +180,7 @@ def bearing(value: float, rng: Random) -> Value:
     if isinstance(value, int):
         fields |= {"three": f"{value:03d}", "words": in_words(value)}
     if value % 22.5 == 0:
-        fields["name"] = POINTS[int(value / 22.5)]
+        fields["name"] = POINTS[int(value % 360 / 22.5)]
     return _worded("bearing", value, fields, rng)
 
 
