@@ -10,6 +10,8 @@ import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
 from planner_ft.benchmark.metrics.failures import (
+    FAILURES,
+    PUBLISHED,
     failure_kind,
     invented_names,
     schema_valid,
@@ -108,6 +110,14 @@ def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
     wrong_role = {"skill_sequence": [step(("LockHeading", {"heading": 0}))]}
     assert schema_valid("task", wrong_role, USV)
     assert not strict_valid("task", wrong_role, USV)
+
+
+def test_the_published_agent_failed_on_nine_of_25_commands() -> None:
+    assert PUBLISHED == {
+        **{"prerequisite omission": 4, "parameter propagation": 2},
+        **{"substitution": 2, "hallucination": 1},
+    }
+    assert tuple(PUBLISHED) == FAILURES[:4]
 
 
 def test_exact_sequence_minds_order_and_repetition() -> None:

@@ -35,6 +35,8 @@ def test_wilson(successes: int, n: int, low: float, high: float) -> None:
 
 
 def test_nothing_measured_is_no_figure() -> None:
+    with pytest.raises(ValueError):
+        clustered_rate([True, False], ["a"])
     assert wilson(0, 0).value is None
     assert bootstrap_mean([], [], 0).value is None
     assert bootstrap_ratio([0.0], [0.0], ["a"], 0).value is None

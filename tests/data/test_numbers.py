@@ -45,6 +45,7 @@ WAYS = """
     length 1050 text: 1050 m | 1050 meters | 1050 metres | 1050m
     length 1500 text: 1.5 kilometres | 1.5 km | 1500 m | 1500 meters | 1500 metres | 1500m | a
     ... kilometre and a half | one and a half kilometres
+    length 1 short: 1 m | 1-metre | one-metre
     length 20 short: 20 m | 20-metre | twenty-metre
     length 21 short: 21 m | 21-metre
     length 0.5 short: 0.5 m | 0.5-metre
@@ -202,9 +203,7 @@ def test_turns_are_said_with_their_side() -> None:
 def test_feet_are_round_and_in_range(low: float, high: float, numbers_of_feet: set[int]) -> None:
     found = {one and (one.value, one.text) for one in draws(lambda rng: feet(rng, low, high), 100)}
     assert found == {
-        (round(n * 0.3048, 2), f"{n} {unit}")
-        for n in numbers_of_feet
-        for unit in ("ft", "feet")
+        (round(n * 0.3048, 2), f"{n} {unit}") for n in numbers_of_feet for unit in ("ft", "feet")
     } | ({None} if not numbers_of_feet else set())
 
 

@@ -66,7 +66,7 @@ WRONG = [
     (
         "Inspect the buoy at [4, 5].",
         plan(find("buoy"), ("SurveyTarget", {"target_position": [4, 5]})),
-        "nothing unresolved follows",
+        "tasks[0] SearchAndDetect: nothing unresolved follows ... gives coordinates for 'buoy'",
     ),
     (
         "Circle the buoy at [4, 5].",
@@ -76,7 +76,7 @@ WRONG = [
     (
         "Hold by the green barrel for five minutes.",
         plan(find("green barrel"), HOLD),
-        "does not arrive",
+        "nothing unresolved follows ... tasks[1] KeepStation: SearchAndDetect does not arrive",
     ),
     ("Circle [4, 5].", plan(("PerformOrbit", {"center": [4, 5]})), "no Transit there comes before"),
     (
@@ -102,7 +102,7 @@ WRONG = [
     (
         "Hold at [4, 5] for five minutes before you come home.",
         plan(go(0, 0), go(4, 5), HOLD),
-        "comes after the return home",
+        "tasks[1] Transit: comes after the return home ... tasks[2] KeepStation: comes after",
     ),
     (
         "Follow contact 4.",
@@ -159,9 +159,113 @@ def test_a_right_plan_has_no_problem(prompt: str, expected: dict[str, Any]) -> N
     ("prompt", "expected", "problem"), WRONG, ids=[problem for *_, problem in WRONG]
 )
 def test_a_wrong_plan_is_caught(prompt: str, expected: dict[str, Any], problem: str) -> None:
-    assert any(problem in text for text in rule_problems(expected, USV, prompt)), rule_problems(
-        expected, USV, prompt
-    )
+    found = rule_problems(expected, USV, prompt)
+    parts = problem.split(" ... ")
+    assert len(found) == len(parts), found
+    assert all(part in text for part, text in zip(parts, found, strict=True)), found
+
+
+GRID = ("BathymetryGridSurvey", {"center": [4, 5]})
+ORBIT = ("PerformOrbit", {"center": [4, 5]})
+REPORT = ("AutoGenerateReportSummary", {})
+DOCK = ("DockingApproach", {"goal_position": HERE})
+ASKED = "nothing unresolved follows and the command asks for no search"
+AWAY = "performed at [4, 5], but no Transit there comes before it"
+LEFT = "the task before does not end at its place, so Transit comes before this task"
+HOME = "comes after the return home, which is the last Transit"
+GIVEN = "the command gives coordinates for 'pier', so it is not searched"
+TURNED = "80 by 50 is width 80 and length 50, not the other way round"
+
+
+def area(width: float, length: float) -> tuple[str, dict[str, Any]]:
+    return "BathymetryGridSurvey", {"center": [5, 5], "width": width, "length": length}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "tasks", "tags", "problems"),
+    [
+        # What only the command's words, or a tag, allow; without both it may be so.
+        ("Find the pier.", [find("pier")], None, []),
+        ("Find the pier.", [find("pier")], [], [f"tasks[0] SearchAndDetect: {ASKED}"]),
+        ("Find the pier.", [find("pier")], ["rule.search-on-request"], []),
+        ("The pier.", [find("pier")], None, [f"tasks[0] SearchAndDetect: {ASKED}"]),
+        (None, [find("pier")], None, []),
+        # A search is used until the next one.
+        (
+            "The red buoy and the pier.",
+            [find("red buoy"), find("pier"), SURVEY],
+            None,
+            [f"tasks[0] SearchAndDetect: {ASKED}"],
+        ),
+        (
+            "Find it.",
+            [("SearchAndDetect", {}), ("SearchAndDetect", {})],
+            None,
+            ["tasks[1] SearchAndDetect: '' was searched by tasks[0] SearchAndDetect already"],
+        ),
+        ("Follow it.", [("FollowTarget", {"target_position": HERE})], None, ["tasks[0] FollowTarget"]),
+        ("T4 at [4, 5].", [("FollowTarget", {"target_id": "T4", "target_position": [4, 5]})], None, []),
+        # Coordinates right behind a target are its own; sides of an area are none.
+        ("The pier at [4, 5].", [find("pier"), SURVEY], None, [f"tasks[0] SearchAndDetect: {GIVEN}"]),
+        (
+            "The pier lying near minus 4, 5.",
+            [find("pier"), SURVEY],
+            None,
+            [f"tasks[0] SearchAndDetect: {GIVEN}"],
+        ),
+        ("The pier by the buoy at [4, 5].", [find("pier"), SURVEY], None, []),
+        ("The pier 20 by 30 m.", [find("pier"), SURVEY], None, []),
+        ("At [4, 5] the pier.", [find("pier"), SURVEY], None, []),
+        # Where the vehicle is.
+        ("To [4, 5], [6, 7].", [go(4, 5), go(6, 7)], None, []),
+        ("To [4, 5].", [go(4, 5), go(4, 5)], None, ["tasks[1] Transit: the vehicle is at [4, 5] already"]),
+        ("To [4, 5].", [GRID, go(4, 5)], None, []),
+        ("To [4, 5].", [GRID, go(4, 5), ORBIT], None, []),
+        ("To [4, 5].", [GRID, ORBIT], None, [f"tasks[1] PerformOrbit: {LEFT}"]),
+        ("To [4, 5].", [GRID, ORBIT], ["rule.no-transit"], [f"tasks[1] PerformOrbit: {AWAY}"]),
+        (None, [GRID, ORBIT], None, [f"tasks[1] PerformOrbit: {AWAY}"]),
+        (None, [GRID, REPORT, ORBIT], [], [f"tasks[2] PerformOrbit: {LEFT}"]),
+        (None, [ORBIT], None, [f"tasks[0] PerformOrbit: {AWAY}"]),
+        (None, [("Transit", {}), go(4, 5), ORBIT], None, []),
+        (None, [find("red buoy"), go(*HERE), HOLD, go(*HERE)], None,
+         ["tasks[3] Transit: the vehicle is at [-99, -99] already"]),
+        (None, [find("red buoy"), find("pier"), go(*HERE), HOLD, go(*HERE)], None, []),
+        (None, [go(4, 5), ("SurveyTarget", {"target_position": [4, 5]})], [],
+         ["tasks[0] Transit: SurveyTarget goes to [4, 5] by itself"]),
+        (None, [go(4, 5), ("SurveyTarget", {"target_position": [4, 6]})], [], []),
+        (None, [go(4, 5), go(4, 5)], [], ["tasks[1] Transit: the vehicle is at [4, 5] already"]),
+        # The way home.
+        (None, [go(0, 0), REPORT], None, []),
+        (None, [go(0, 0), DOCK], None,
+         ["tasks[0] Transit: a return that ends in DockingApproach is that task alone"]),
+        (None, [go(0, 0), REPORT, DOCK], None, []),
+        (None, [go(0, 0), go(4, 5), HOLD], None,
+         [f"tasks[1] Transit: {HOME}", f"tasks[2] KeepStation: {HOME}"]),
+        (None, [go(0, 0), go(4, 5), go(0, 0)], None, []),
+        ("To [0, 0], then [4, 5].", [go(0, 0), go(4, 5)], None, []),
+        (None, [REPORT], ["rule.return"],
+         ["the tag rule.return needs a Transit to [0, 0] or a docking"]),
+        (None, [go(4, 5)], ["rule.return"],
+         ["the tag rule.return needs a Transit to [0, 0] or a docking"]),
+        # Width by length, unless the sides are named.
+        ("Sound 80 by 50 at [5, 5].", [area(80, 50)], None, []),
+        ("Sound 80 x 50 at [5, 5].", [area(50, 80)], None, [f"tasks[0] BathymetryGridSurvey: {TURNED}"]),
+        ("Sound 80 times 50 at [5, 5].", [area(50, 80)], [], [f"tasks[0] BathymetryGridSurvey: {TURNED}"]),
+        ("Sound 80 and 50 at [5, 5].", [area(50, 80)], None, []),
+        ("Sound 50 x 50 at [5, 5].", [area(50, 50)], None, []),
+        ("Sound 80 by 50, 80 long, at [5, 5].", [area(50, 80)], None, []),
+        ("Sound 70 by 50, 80 at [5, 5].", [area(50, 80)], None, []),
+        # Values.
+        ("Hold.", [HOLD], None, ["tasks[0] KeepStation, duration: 300 s does not follow from the command"]),
+        (None, [HOLD], [], []),
+    ],
+)  # fmt: skip
+def test_every_problem_of_a_plan_is_said_once(
+    prompt: str | None, tasks: Any, tags: list[str] | None, problems: list[str]
+) -> None:
+    found = rule_problems(plan(*tasks), USV, prompt, tags)
+    assert len(found) == len(problems), found
+    assert all(text.startswith(part) for part, text in zip(problems, found, strict=True)), found
 
 
 def test_spelling_put_right_needs_the_tag_where_a_record_has_tags() -> None:

@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.stated import completeness_problems, step_problems
-from planner_ft.vocabulary import load_vocabulary
+from planner_ft.data.stated import completeness_problems, step_problems, unstated
+from planner_ft.facts import read_input
+from planner_ft.vocabulary import Parameter, load_vocabulary
 
 USV = load_vocabulary()
 Skill = tuple[str, dict[str, Any]]
@@ -99,3 +100,114 @@ def test_a_value_in_a_unit_of_the_vehicle_is_not_lost() -> None:
     record = {"prompt": "Hold for half an hour.", "expected": expected, "tags": []}
     assert list(completeness_problems(record, replace(USV, tasks=others))) == []
     assert list(completeness_problems(record, USV)) != []
+
+
+TIME, PLACE, WHAT = (
+    Parameter("it", "number", "s"),
+    Parameter("it", "position"),
+    Parameter("it", "text"),
+)
+SAID = "Turn 40 degrees, hold 30 s at [3, 4] by the red buoy and Sierra 2."
+
+
+@pytest.mark.parametrize(
+    ("value", "parameter", "problems"),
+    [
+        (30, TIME, []),
+        (31, TIME, ["31 s does not follow from there"]),
+        (31, Parameter("it", "integer"), ["31 does not follow from there"]),
+        # Turning left is said without the sign.
+        (-40, Parameter("it", "number", "deg"), []),
+        (-41, Parameter("it", "number", "deg"), ["-41 deg does not follow from there"]),
+        ([3, 4], PLACE, []),
+        ([3, 5], PLACE, ["the coordinates [3, 5] are not in there"]),
+        ([[3, 5]] * 3, Parameter("it", "polygon"), []),
+        ("red buoy", WHAT, []),
+        ("green big buoy", WHAT, ["'green', 'big' of 'green big buoy' not in there"]),
+        ("the red buoy", WHAT, ["'the red buoy' begins with an article"]),
+        ("red buoy,", WHAT, ["'red buoy,' ends or begins with a blank or punctuation"]),
+        (" red buoy", WHAT, ["' red buoy' ends or begins with a blank or punctuation"]),
+        (2, Parameter("it", "id"), []),
+        (["red buoy", "a pier"], Parameter("it", "texts"),
+         ["'a', 'pier' of 'a pier' not in there", "'a pier' begins with an article"]),
+    ],
+)  # fmt: skip
+def test_why_a_value_was_not_said(value: Any, parameter: Parameter, problems: list[str]) -> None:
+    source = read_input({"prompt": SAID}, USV)
+    assert list(unstated(value, parameter, source, SAID, "there")) == problems
+    assert list(unstated("rad boy", WHAT, source, SAID, "there")) == []
+    (missing,) = unstated("rad", WHAT, source, SAID, "there", misspelt=False)
+    assert (
+        missing == "'rad' of 'rad' not in there (spelling put right needs the tag param.spelling)"
+    )
+
+
+GO = {"title": "Transit", "parameters": {"target_position": [3, 4]}, "task_prompt": "Go to [3, 4]."}
+STAY = {"title": "KeepStation", "parameters": {"duration": 30}, "task_prompt": "Hold 30 s."}
+COMMAND = "Hold for 30 s at [3, 4]."
+ALONE = "expected: {} of the command stand"
+
+
+def record(*tasks: Any, prompt: str = COMMAND, **more: Any) -> dict[str, Any]:
+    expected = {"tasks": list(tasks), "assumptions": [], "constraints": [], **more}
+    return {"prompt": prompt, "expected": expected, "tags": []}
+
+
+@pytest.mark.parametrize(
+    ("found", "problems"),
+    [
+        (record(GO, STAY), []),
+        (record(GO, {**STAY, "task_prompt": " "}), ["expected: tasks[1] KeepStation: task_prompt is empty"]),
+        (record(prompt="Make tea."), ["expected: an empty task list needs a constraint that says why"]),
+        (record(prompt="Make tea.", constraints=["No kitchen."]), []),
+        (
+            record({**GO, "parameters": {"target_position": [-99, -99]}, "task_prompt": "Go."}, prompt="Go."),
+            ["expected: a plan with an unresolved place needs an assumption about it"],
+        ),
+        (
+            record(
+                {**GO, "parameters": {"target_position": [-99, -99]}, "task_prompt": "Go."},
+                prompt="Go.",
+                assumptions=["It is there."],
+            ),
+            [],
+        ),
+        (record(GO, GO, STAY), ["expected: tasks[1] Transit: the same task again"]),
+        (record(GO, STAY, GO), []),
+        (record(GO, STAY, {**STAY, "parameters": {"duration": 30.0}}), ["expected: tasks[2] KeepStation: the same task again"]),
+        # Numbers that its texts have made up; words are none, and signs do not count.
+        (
+            record(GO, {**STAY, "task_prompt": "Hold 35 s."}),
+            ["expected: tasks[1].task_prompt: 35 is neither in the command nor in a parameter"],
+        ),
+        (
+            record(GO, STAY, constraints=["Stay."], assumptions=["x", "Back in 5 hours."]),
+            ["expected: assumptions[1]: 5 is neither in the command nor in a parameter"],
+        ),
+        (record(GO, STAY, constraints=["At most 5 m, in two ways."]),
+         ["expected: constraints[0]: 5 is neither in the command nor in a parameter"]),
+        (record(GO, {**STAY, "task_prompt": "Hold -30 s at 0, -99 for half a minute."}), []),
+        (record(GO, {**STAY, "task_prompt": "Hold 0.5 min."}), []),
+        # Values of the command that the plan has lost.
+        (record(GO, prompt=COMMAND), [ALONE.format("'30 s'")]),
+        (record(STAY, prompt=COMMAND), [ALONE.format("the coordinates '3, 4'")]),
+        (record(STAY, prompt="Hold for 30 s at 3, 4."), []),
+        (record(STAY, prompt="Hold for 30 s, an hour, a day or a minute."), []),
+        (record(GO, STAY, prompt=COMMAND + " Do 7."), []),
+        (record(GO, prompt=COMMAND, constraints=["Hold for 30 s."]), []),
+        (record(STAY, prompt="Hold for 30 s at (3, 4).", assumptions=["At 3 and 4."]), []),
+        (record(prompt=COMMAND, constraints=["No."]), []),
+    ],
+)  # fmt: skip
+def test_what_a_curated_record_lacks(found: dict[str, Any], problems: list[str]) -> None:
+    said = list(completeness_problems(found, USV))
+    assert len(said) == len(problems), said
+    assert all(text.startswith(part) for part, text in zip(problems, said, strict=True)), said
+
+
+def test_three_turns_are_computed_and_two_are_said() -> None:
+    """Also of one skill beside others, and where a step has no name."""
+    assert len(problems("Look.", [turn(10)], [turn(130)])) == 2
+    assert problems("Hold 30 s.", [hold(30)], [hold(30)], [hold(30)]) == []
+    assert len(problems("Hold 30 s.", [hold(40)], [hold(50)], [hold(60)])) == 3
+    assert problems("Look left 90.", [("NudgeYaw", {"delta_yaw": -90})]) == []

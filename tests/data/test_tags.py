@@ -16,9 +16,11 @@ from planner_ft.data.tags import (
     ALWAYS_TAGGED,
     TAGS,
     TASKS_OF_TAG,
+    WORDS,
     coverage_problems,
     tag_problems,
     tags_of,
+    unchecked_tags,
 )
 from planner_ft.data.validation import validate_file
 from planner_ft.support.files import read_jsonl
@@ -128,3 +130,71 @@ def test_a_search_and_a_transit_are_those_of_the_definition() -> None:
     plan = {"tasks": [{"title": "FindThing", "parameters": {}, "task_prompt": "Find it."}]}
     record = {"expected": plan, "tags": ["rule.search", "rule.transit"]}
     assert list(tag_problems(record, rover)) == ["tag rule.transit needs DriveTo in the plan"]
+
+
+@pytest.mark.parametrize(("split", "least"), [("train", 8), ("validation", 1), ("test", 1)])
+def test_every_title_occurs_often_enough(
+    splits: dict[str, list[dict[str, Any]]], split: str, least: int
+) -> None:
+    def with_title(record: dict[str, Any]) -> bool:
+        return "HorizontalPanorama" in plan_names("mission", record["expected"])
+
+    once = next(record for record in splits["train"] if with_title(record))
+    for count, problems in (
+        (least, []),
+        (least - 1, [f"{split}: HorizontalPanorama occurs {least - 1} times, {least} are needed"]),
+    ):
+        changed = copy.deepcopy(splits)
+        others = [record for record in splits[split] if not with_title(record)]
+        changed[split] = others + [copy.deepcopy(once) for _ in range(count)]
+        found = [one for one in coverage_problems(changed, USV) if "HorizontalPanorama" in one]
+        assert found == problems
+
+
+def test_a_split_of_another_size_is_named(splits: dict[str, list[dict[str, Any]]]) -> None:
+    for split, size in (("train", 125), ("validation", 25), ("test", 25)):
+        more = {**splits, split: [*splits[split], splits[split][0]]}
+        assert coverage_problems(more, USV) == [f"{split}: {size + 1} records, {size} are expected"]
+
+
+def test_tags_of_other_vehicles_are_checked_by_nobody() -> None:
+    records = [{"tags": ["which.roof-scan", "rule.order"]}, {"tags": ["which.orbit"]}, {}]
+    assert unchecked_tags(records, USV) == ["which.roof-scan"]
+    assert unchecked_tags(records, DRONE) == []
+
+
+@pytest.mark.parametrize(
+    ("titles", "tags", "problems"),
+    [
+        (["KeepStation"], ["which.keep"], []),
+        ([], ["rule.empty"], []),
+        (["Transit"], ["rule.transit"], []),
+        (
+            ["KeepStation"],
+            ["which.keep", "rule.transit"],
+            ["tag rule.transit needs Transit in the plan"],
+        ),
+        # A tag of tasks that this vehicle has not asks for nothing.
+        (["Transit"], ["which.roof-scan"], []),
+        (["Transit"], ["rule.zen"], ["tag 'rule.zen' is not known"]),
+    ],
+)
+def test_all_that_is_wrong_with_tags(
+    titles: list[str], tags: list[str], problems: list[str]
+) -> None:
+    expected = {"tasks": [{"title": title, "parameters": {}} for title in titles]}
+    assert list(tag_problems({"tags": tags, "expected": expected}, USV)) == problems
+
+
+@pytest.mark.parametrize(
+    ("tag", "words", "right"),
+    [
+        ("rule.search-on-request", "FIND it", True),
+        ("rule.search-on-request", "a finder", False),
+        ("rule.explicit-go", "proceeding there", True),
+        ("rule.no-transit", "hold right there", True),
+        ("rule.no-transit", "hold at the pier", False),
+    ],
+)
+def test_words_that_an_exception_may_be_said_with(tag: str, words: str, right: bool) -> None:
+    assert (WORDS[tag].search(words) is not None) is right

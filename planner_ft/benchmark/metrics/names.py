@@ -101,7 +101,7 @@ def edge_f1(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> floa
     neither sequence has two nodes: 1.0 for equal sequences, else 0.0.
     """
     ours, theirs = _edges(predicted), _edges(expected)
-    if not ours and not theirs:
+    if not ours | theirs:
         return float(list(predicted) == list(expected))
     return set_counts(ours, theirs).f1
 

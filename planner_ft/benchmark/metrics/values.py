@@ -139,9 +139,9 @@ def _rings_agree(given: Any, stated: Any, vocabulary: Vocabulary) -> bool:
     given, stated = (
         ring[:-1] if len(ring) > 3 and ring[0] == ring[-1] else ring for ring in (given, stated)
     )
-    starts = range(max(len(given), 1))
+    starts = range(len(given))
     turns = (ring[at:] + ring[:at] for ring in (given, given[::-1]) for at in starts)
-    return any(values_agree(turn, stated, None, vocabulary) for turn in turns)
+    return given == stated or any(values_agree(turn, stated, None, vocabulary) for turn in turns)
 
 
 def _are_texts(value: Any) -> bool:
