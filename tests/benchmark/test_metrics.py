@@ -114,8 +114,10 @@ def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
 
 def test_the_published_agent_failed_on_nine_of_25_commands() -> None:
     assert PUBLISHED == {
-        **{"prerequisite omission": 4, "parameter propagation": 2},
-        **{"substitution": 2, "hallucination": 1},
+        "prerequisite omission": 4,
+        "parameter propagation": 2,
+        "substitution": 2,
+        "hallucination": 1,
     }
     assert tuple(PUBLISHED) == FAILURES[:4]
 

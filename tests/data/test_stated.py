@@ -211,3 +211,13 @@ def test_three_turns_are_computed_and_two_are_said() -> None:
     assert problems("Hold 30 s.", [hold(30)], [hold(30)], [hold(30)]) == []
     assert len(problems("Hold 30 s.", [hold(40)], [hold(50)], [hold(60)])) == 3
     assert problems("Look left 90.", [("NudgeYaw", {"delta_yaw": -90})]) == []
+
+
+def test_texts_of_the_task_are_said_too() -> None:
+    mark: Skill = ("CreateMapMarker", {"label": "old mark"})
+    assert problems("Mark it.", [hold(30), mark], duration=30, note="old mark") == []
+    (problem,) = problems("Mark it.", [hold(30), mark], duration=30)
+    assert problem.startswith("skill_sequence[0] CreateMapMarker, label: 'old' of 'old mark'")
+    record = {"task": "KeepStation", "prompt": "Hold 30 s.", "parameters": [1]}
+    steps = [{"navigation_skill": {"name": "StationKeep", "parameters": {"time": 30}}}]
+    assert list(step_problems({**record, "expected": {"skill_sequence": steps}}, USV)) == []

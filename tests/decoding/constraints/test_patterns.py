@@ -137,3 +137,47 @@ def test_a_literal_is_read_back_by_the_grammar(embedded: object) -> None:
             ids = engine.tokenize_bytes((text + "!").encode())
             assert matcher.validate_tokens(ids) == len(ids)
             assert matcher.validate_tokens(engine.tokenize_bytes((text + "?").encode())) < len(ids)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "inside", "outside"),
+    [
+        (0, 360, "0 1 9 10 359 360 0.5 359.9999", "-1 -0.5 361 360.0001 1000 3600 -360"),
+        (-360, 360, "-360 -359.5 -0.1 0 360", "-361 -360.1 360.1 -1000 400"),
+        (5, 20, "5 5.1 9 10 19.9 20", "4 4.9 0 0.5 21 20.1 50 200 -5 -10"),
+        (-20, -5, "-20 -19.9 -10 -5 -5.1", "-4 -4.9 -21 -20.1 0 5 10 -0.5 0.5"),
+        (-5, 0, "-5 -0.1 0", "0.1 1 -5.1 -6 -10"),
+        (0.25, 2.5, "0.25 0.26 0.3 1 2 2.5 2.49", "0 0.2 0.24 0.249 2.51 2.6 3 10 -1 25"),
+        (-2.5, -0.25, "-2.5 -0.25 -1 -0.3", "-2.51 -3 -0.2 -0.24 0 1 -25"),
+        (99, 101, "99 100 101 99.5", "98 98.9 101.5 102 9 10 999 1000"),
+        (1000, 1000, "1000", "999 1001 1000.5 999.9 10000 100"),
+    ],
+)
+def test_the_numbers_at_the_bounds_of_a_range(
+    low: float, high: float, inside: str, outside: str
+) -> None:
+    for text in inside.split():
+        assert in_range(low, high, text, whole=False), text
+        assert in_range(low, high, text, whole=True) is ("." not in text), text
+    for text in outside.split():
+        assert not in_range(low, high, text, whole=False), text
+
+
+def test_numbers_without_a_range_have_seven_digits_and_four_decimals() -> None:
+    for text in ("0", "-1", "1234567", "-1234567.1234", "0.0001", "-0.5", "10.01"):
+        assert matches(patterns.ANY_NUMBER, text), text
+        assert matches(patterns.ANY_INTEGER, text) is ("." not in text), text
+        assert matches(patterns.ANY_POSITION, f"[{text},{text}]"), text
+    for text in ("12345678", "1.12345", "-0", "1.10", "01", "-01"):
+        assert not matches(patterns.ANY_NUMBER, text), text
+    assert matches(patterns.any_number(whole=True, digits=2), "99")
+    assert not matches(patterns.any_number(whole=True, digits=2), "100")
+
+
+def test_escaped_texts_match_themselves_alone() -> None:
+    for text in ("a b_c", "1/2", "é\u0301", "(x)*[y]", "%", "日本"):
+        python = re.sub(
+            r"\\x\{(\w+)\}", lambda code: re.escape(chr(int(code[1], 16))), patterns.escaped(text)
+        )
+        assert matches(python, text) and not matches(python, text + "x")
+    assert patterns.escaped("a.b") == r"a\x{2e}b"

@@ -104,3 +104,89 @@ def test_long_commands_keep_their_spans(embedded: Any) -> None:
     assert admitted(embedded, [" ".join(words)], " ".join(words[10:170]))
     assert Spans([" ".join(words)]).too_long is False
     assert Spans(["word " * (MOST_WORDS + 1)]).too_long is True
+
+
+WORD = "x" * 32
+
+
+@pytest.mark.parametrize(
+    ("command", "value", "possible"),
+    [
+        # Behind four function words in a row a span may end all the same.
+        ("steam to of the and buoy", "steam to of the", False),
+        ("steam to of the and buoy", "steam to of the and", True),
+        ("steam to of the and in buoy", "steam to of the and in", False),
+        ("the buoy", "the", False),
+        ("the buoy", "the buoy", False),
+        ('sail the "the Wave"', "the Wave", True),
+        ("sail the 'the Wave'", "the Wave", True),
+        ("sail (the Wave)", "the Wave", False),
+        ("plan A is best", "plan A", True),
+        ("plan a is best", "plan a", False),
+        ("region a, then left", "region a", True),
+        ("region a, then left", "a", True),
+        ("camera_a is on", "camera_a", True),
+        ("camera_a is on", "camera", False),
+        ("camera-a is on", "camera-a", True),
+        # A word of up to 32 bytes.
+        (WORD, WORD, True),
+        (WORD + "x", WORD + "x", False),
+        ("é" * 16, "é" * 16, True),
+        ("é" * 17, "é" * 17, False),
+        # Gaps: a hyphen or slash may be a blank, other signs inside a word stay.
+        ("pier-end lamp", "pier end lamp", True),
+        ("pier/end lamp", "pier end", True),
+        ("pier&end lamp", "pier&end", True),
+        ("pier&end lamp", "pier end", False),
+        ("no. 7 buoy", "no. 7", True),
+        ("no. 7 buoy", "no 7", True),
+        ("pier. 7 buoys", "pier. 7", False),
+        ("pier. 7 buoys", "pier 7", False),
+        ("big,  red buoy", "big,  red buoy", False),
+        ("big  red buoy", "big red buoy", True),
+        ("big: red buoy", "big red buoy", False),
+        ("the pier (old)", "pier old", False),
+        ("find 'Anna' now", "find Anna", True),
+        # Possessives.
+        ("the bow's weld", "bow's weld", True),
+        ("the bow's weld", "bow weld", True),
+        ("the bow's", "bow's", True),
+        ("the bow't weld", "bow weld", False),
+        # Capitals.
+        ("THE GAS BOTTLE", "GAS BOTTLE", True),
+        ("THE GAS BOTTLE", "Gas Bottle", True),
+        ("THE GAS BOTTLE", "gas bottle", True),
+        ("the gas bottle", "Gas bottle", False),
+        ("track Q now", "q", True),
+        # With words left out, a plural is its singular, and a value may be two spans.
+        ("two buoys and the other one", "buoy", True),
+        ("old buoys", "buoy", False),
+        ("two passes and the other one", "passe", True),
+        ("the glass and the other one", "glas", False),
+        ("the gas and the other one", "ga", False),
+        ("red lamp here, pier there and the other one", "red pier", True),
+        ("red lamp here, pier there", "red pier", False),
+        ("請查浮標", "查浮標", True),
+        ("請查浮標", "查標", False),
+    ],
+)
+def test_what_a_value_may_be_of_a_command(
+    embedded: Any, command: str, value: str, possible: bool
+) -> None:
+    assert admitted(embedded, [command], value) is possible
+
+
+def test_a_command_of_2000_words_keeps_its_spans() -> None:
+    assert not Spans(["word " * MOST_WORDS]).too_long
+    assert not Spans(["word " * (MOST_WORDS // 2)] * 2).too_long
+    assert Spans(["word " * (MOST_WORDS // 2), "word " * (MOST_WORDS // 2 + 1)]).too_long
+
+
+def test_where_all_spans_are_ruled_out_there_is_none(embedded: Any) -> None:
+    assert Spans(["buoy"]).terminal(Grammar(), ["Buoy"]) is None
+    assert Spans(["the"]).terminal(Grammar()) is Spans([]).terminal(Grammar()) is None
+    assert not admitted(embedded, ["red buoy"], "buoy", ("buoy",))
+    assert admitted(embedded, ["red buoy"], "red buoy", ("buoy",))
+    grammar, spans = Grammar(), Spans(["red buoy"])
+    assert spans.terminal(grammar) == spans.terminal(grammar)
+    assert spans.terminal(grammar, ["buoy"]) != spans.terminal(grammar)
