@@ -174,9 +174,7 @@ def test_resamples_draw_as_many_clusters_as_there_are() -> None:
     assert totals.shape == (10_000, 1) and set(totals[:, 0]) == {7}
 
 
-def test_a_ratio_without_a_second_cluster_has_no_interval_and_resamples_of_nothing_are_left_out() -> (
-    None
-):
+def test_a_ratio_of_one_cluster_has_no_interval_and_resamples_of_nothing_are_left_out() -> None:
     one = bootstrap_ratio([1, 9], [2, 10], ["a", "a"], 0)
     assert (one.value, one.low, one.high) == (pytest.approx(10 / 12), None, None)
     rare = bootstrap_ratio([0, 1, 0], [0, 2, 0], ["a", "b", "c"], 0)

@@ -45,6 +45,7 @@ WAYS = """
     length 1050 text: 1050 m | 1050 meters | 1050 metres | 1050m
     length 1500 text: 1.5 kilometres | 1.5 km | 1500 m | 1500 meters | 1500 metres | 1500m | a
     ... kilometre and a half | one and a half kilometres
+    length 9900 text: 9.9 kilometres | 9.9 km | 9900 m | 9900 meters | 9900 metres | 9900m
     length 1 short: 1 m | 1-metre | one-metre
     length 20 short: 20 m | 20-metre | twenty-metre
     length 21 short: 21 m | 21-metre
@@ -181,7 +182,7 @@ def test_a_value_is_read_from_every_way_of_saying_it(
 def test_turns_are_said_with_their_side() -> None:
     right, left = {"right", "clockwise", "starboard"}, {"left", "anticlockwise", "port"}
     right_words, left_words = right, left | {"counter-clockwise"}
-    for value in (15, 90, 360, -15, -90, -360):
+    for value in (1, 15, 90, 360, -1, -15, -90, -360):
         degrees = Parameter("it", "number", "deg")
         for one in draws(lambda rng, value=value: rotation(value, rng), 400):
             own, other = (right_words, left_words) if value > 0 else (left_words, right_words)

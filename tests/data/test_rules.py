@@ -203,10 +203,25 @@ def area(width: float, length: float) -> tuple[str, dict[str, Any]]:
             None,
             ["tasks[1] SearchAndDetect: '' was searched by tasks[0] SearchAndDetect already"],
         ),
-        ("Follow it.", [("FollowTarget", {"target_position": HERE})], None, ["tasks[0] FollowTarget"]),
-        ("T4 at [4, 5].", [("FollowTarget", {"target_id": "T4", "target_position": [4, 5]})], None, []),
+        (
+            "Follow it.",
+            [("FollowTarget", {"target_position": HERE})],
+            None,
+            ["tasks[0] FollowTarget"],
+        ),
+        (
+            "T4 at [4, 5].",
+            [("FollowTarget", {"target_id": "T4", "target_position": [4, 5]})],
+            None,
+            [],
+        ),
         # Coordinates right behind a target are its own; sides of an area are none.
-        ("The pier at [4, 5].", [find("pier"), SURVEY], None, [f"tasks[0] SearchAndDetect: {GIVEN}"]),
+        (
+            "The pier at [4, 5].",
+            [find("pier"), SURVEY],
+            None,
+            [f"tasks[0] SearchAndDetect: {GIVEN}"],
+        ),
         (
             "The pier lying near minus 4, 5.",
             [find("pier"), SURVEY],
@@ -218,7 +233,12 @@ def area(width: float, length: float) -> tuple[str, dict[str, Any]]:
         ("At [4, 5] the pier.", [find("pier"), SURVEY], None, []),
         # Where the vehicle is.
         ("To [4, 5], [6, 7].", [go(4, 5), go(6, 7)], None, []),
-        ("To [4, 5].", [go(4, 5), go(4, 5)], None, ["tasks[1] Transit: the vehicle is at [4, 5] already"]),
+        (
+            "To [4, 5].",
+            [go(4, 5), go(4, 5)],
+            None,
+            ["tasks[1] Transit: the vehicle is at [4, 5] already"],
+        ),
         ("To [4, 5].", [GRID, go(4, 5)], None, []),
         ("To [4, 5].", [GRID, go(4, 5), ORBIT], None, []),
         ("To [4, 5].", [GRID, ORBIT], None, [f"tasks[1] PerformOrbit: {LEFT}"]),
@@ -227,39 +247,78 @@ def area(width: float, length: float) -> tuple[str, dict[str, Any]]:
         (None, [GRID, REPORT, ORBIT], [], [f"tasks[2] PerformOrbit: {LEFT}"]),
         (None, [ORBIT], None, [f"tasks[0] PerformOrbit: {AWAY}"]),
         (None, [("Transit", {}), go(4, 5), ORBIT], None, []),
-        (None, [find("red buoy"), go(*HERE), HOLD, go(*HERE)], None,
-         ["tasks[3] Transit: the vehicle is at [-99, -99] already"]),
+        (
+            None,
+            [find("red buoy"), go(*HERE), HOLD, go(*HERE)],
+            None,
+            ["tasks[3] Transit: the vehicle is at [-99, -99] already"],
+        ),
         (None, [find("red buoy"), find("pier"), go(*HERE), HOLD, go(*HERE)], None, []),
-        (None, [go(4, 5), ("SurveyTarget", {"target_position": [4, 5]})], [],
-         ["tasks[0] Transit: SurveyTarget goes to [4, 5] by itself"]),
+        (
+            None,
+            [go(4, 5), ("SurveyTarget", {"target_position": [4, 5]})],
+            [],
+            ["tasks[0] Transit: SurveyTarget goes to [4, 5] by itself"],
+        ),
         (None, [go(4, 5), ("SurveyTarget", {"target_position": [4, 6]})], [], []),
         (None, [go(4, 5), go(4, 5)], [], ["tasks[1] Transit: the vehicle is at [4, 5] already"]),
         # The way home.
         (None, [go(0, 0), REPORT], None, []),
-        (None, [go(0, 0), DOCK], None,
-         ["tasks[0] Transit: a return that ends in DockingApproach is that task alone"]),
+        (
+            None,
+            [go(0, 0), DOCK],
+            None,
+            ["tasks[0] Transit: a return that ends in DockingApproach is that task alone"],
+        ),
         (None, [go(0, 0), REPORT, DOCK], None, []),
-        (None, [go(0, 0), go(4, 5), HOLD], None,
-         [f"tasks[1] Transit: {HOME}", f"tasks[2] KeepStation: {HOME}"]),
+        (
+            None,
+            [go(0, 0), go(4, 5), HOLD],
+            None,
+            [f"tasks[1] Transit: {HOME}", f"tasks[2] KeepStation: {HOME}"],
+        ),
         (None, [go(0, 0), go(4, 5), go(0, 0)], None, []),
         ("To [0, 0], then [4, 5].", [go(0, 0), go(4, 5)], None, []),
-        (None, [REPORT], ["rule.return"],
-         ["the tag rule.return needs a Transit to [0, 0] or a docking"]),
-        (None, [go(4, 5)], ["rule.return"],
-         ["the tag rule.return needs a Transit to [0, 0] or a docking"]),
+        (
+            None,
+            [REPORT],
+            ["rule.return"],
+            ["the tag rule.return needs a Transit to [0, 0] or a docking"],
+        ),
+        (
+            None,
+            [go(4, 5)],
+            ["rule.return"],
+            ["the tag rule.return needs a Transit to [0, 0] or a docking"],
+        ),
         # Width by length, unless the sides are named.
         ("Sound 80 by 50 at [5, 5].", [area(80, 50)], None, []),
-        ("Sound 80 x 50 at [5, 5].", [area(50, 80)], None, [f"tasks[0] BathymetryGridSurvey: {TURNED}"]),
-        ("Sound 80 times 50 at [5, 5].", [area(50, 80)], [], [f"tasks[0] BathymetryGridSurvey: {TURNED}"]),
+        (
+            "Sound 80 x 50 at [5, 5].",
+            [area(50, 80)],
+            None,
+            [f"tasks[0] BathymetryGridSurvey: {TURNED}"],
+        ),
+        (
+            "Sound 80 times 50 at [5, 5].",
+            [area(50, 80)],
+            [],
+            [f"tasks[0] BathymetryGridSurvey: {TURNED}"],
+        ),
         ("Sound 80 and 50 at [5, 5].", [area(50, 80)], None, []),
         ("Sound 50 x 50 at [5, 5].", [area(50, 50)], None, []),
         ("Sound 80 by 50, 80 long, at [5, 5].", [area(50, 80)], None, []),
         ("Sound 70 by 50, 80 at [5, 5].", [area(50, 80)], None, []),
         # Values.
-        ("Hold.", [HOLD], None, ["tasks[0] KeepStation, duration: 300 s does not follow from the command"]),
+        (
+            "Hold.",
+            [HOLD],
+            None,
+            ["tasks[0] KeepStation, duration: 300 s does not follow from the command"],
+        ),
         (None, [HOLD], [], []),
     ],
-)  # fmt: skip
+)
 def test_every_problem_of_a_plan_is_said_once(
     prompt: str | None, tasks: Any, tags: list[str] | None, problems: list[str]
 ) -> None:

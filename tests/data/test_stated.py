@@ -128,10 +128,13 @@ SAID = "Turn 40 degrees, hold 30 s at [3, 4] by the red buoy and Sierra 2."
         ("red buoy,", WHAT, ["'red buoy,' ends or begins with a blank or punctuation"]),
         (" red buoy", WHAT, ["' red buoy' ends or begins with a blank or punctuation"]),
         (2, Parameter("it", "id"), []),
-        (["red buoy", "a pier"], Parameter("it", "texts"),
-         ["'a', 'pier' of 'a pier' not in there", "'a pier' begins with an article"]),
+        (
+            ["red buoy", "a pier"],
+            Parameter("it", "texts"),
+            ["'a', 'pier' of 'a pier' not in there", "'a pier' begins with an article"],
+        ),
     ],
-)  # fmt: skip
+)
 def test_why_a_value_was_not_said(value: Any, parameter: Parameter, problems: list[str]) -> None:
     source = read_input({"prompt": SAID}, USV)
     assert list(unstated(value, parameter, source, SAID, "there")) == problems
@@ -157,11 +160,20 @@ def record(*tasks: Any, prompt: str = COMMAND, **more: Any) -> dict[str, Any]:
     ("found", "problems"),
     [
         (record(GO, STAY), []),
-        (record(GO, {**STAY, "task_prompt": " "}), ["expected: tasks[1] KeepStation: task_prompt is empty"]),
-        (record(prompt="Make tea."), ["expected: an empty task list needs a constraint that says why"]),
+        (
+            record(GO, {**STAY, "task_prompt": " "}),
+            ["expected: tasks[1] KeepStation: task_prompt is empty"],
+        ),
+        (
+            record(prompt="Make tea."),
+            ["expected: an empty task list needs a constraint that says why"],
+        ),
         (record(prompt="Make tea.", constraints=["No kitchen."]), []),
         (
-            record({**GO, "parameters": {"target_position": [-99, -99]}, "task_prompt": "Go."}, prompt="Go."),
+            record(
+                {**GO, "parameters": {"target_position": [-99, -99]}, "task_prompt": "Go."},
+                prompt="Go.",
+            ),
             ["expected: a plan with an unresolved place needs an assumption about it"],
         ),
         (
@@ -174,7 +186,10 @@ def record(*tasks: Any, prompt: str = COMMAND, **more: Any) -> dict[str, Any]:
         ),
         (record(GO, GO, STAY), ["expected: tasks[1] Transit: the same task again"]),
         (record(GO, STAY, GO), []),
-        (record(GO, STAY, {**STAY, "parameters": {"duration": 30.0}}), ["expected: tasks[2] KeepStation: the same task again"]),
+        (
+            record(GO, STAY, {**STAY, "parameters": {"duration": 30.0}}),
+            ["expected: tasks[2] KeepStation: the same task again"],
+        ),
         # Numbers that its texts have made up; words are none, and signs do not count.
         (
             record(GO, {**STAY, "task_prompt": "Hold 35 s."}),
@@ -184,8 +199,10 @@ def record(*tasks: Any, prompt: str = COMMAND, **more: Any) -> dict[str, Any]:
             record(GO, STAY, constraints=["Stay."], assumptions=["x", "Back in 5 hours."]),
             ["expected: assumptions[1]: 5 is neither in the command nor in a parameter"],
         ),
-        (record(GO, STAY, constraints=["At most 5 m, in two ways."]),
-         ["expected: constraints[0]: 5 is neither in the command nor in a parameter"]),
+        (
+            record(GO, STAY, constraints=["At most 5 m, in two ways."]),
+            ["expected: constraints[0]: 5 is neither in the command nor in a parameter"],
+        ),
         (record(GO, {**STAY, "task_prompt": "Hold -30 s at 0, -99 for half a minute."}), []),
         (record(GO, {**STAY, "task_prompt": "Hold 0.5 min."}), []),
         # Values of the command that the plan has lost.
@@ -198,7 +215,7 @@ def record(*tasks: Any, prompt: str = COMMAND, **more: Any) -> dict[str, Any]:
         (record(STAY, prompt="Hold for 30 s at (3, 4).", assumptions=["At 3 and 4."]), []),
         (record(prompt=COMMAND, constraints=["No."]), []),
     ],
-)  # fmt: skip
+)
 def test_what_a_curated_record_lacks(found: dict[str, Any], problems: list[str]) -> None:
     said = list(completeness_problems(found, USV))
     assert len(said) == len(problems), said

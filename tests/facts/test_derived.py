@@ -1,4 +1,4 @@
-"""What follows from stated places, lengths, bearings and counts by arithmetic, and what does not."""
+"""What follows from stated places, lengths, bearings and counts, and what does not."""
 
 from __future__ import annotations
 

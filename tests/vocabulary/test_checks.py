@@ -286,7 +286,8 @@ MOVES = "the motion file: skill "
         (
             {"task": {"TowerOrbit": {"center": "center"}}},
             [
-                "the motion file: task TowerOrbit: a stand-off needs radius = the name of a parameter"
+                "the motion file: task TowerOrbit: a stand-off needs radius = the name of a"
+                " parameter"
             ],
         ),
     ],
