@@ -9,10 +9,11 @@ from typing import Any
 import pytest
 
 from planner_ft.document import apply
-from planner_ft.document.clearance import way_round
+from planner_ft.document.clearance import _walls, way_round
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import Structure, fence, structures, way_off
 from planner_ft.document.track import track
+from planner_ft.planning.passes import Face
 from tests.documents import USV, document, step, task
 
 MAST = [250, -80]
@@ -370,3 +371,63 @@ def test_a_fence_and_a_closed_area_are_kept_to_half_a_metre(leg: Any, *, kept: b
     assert fence(document([transit(9, 9)], constraints=texts), USV)(*leg) is kept
     alone = fence(document([transit(9, 9)], constraints=texts[1:]), USV)
     assert alone((0, 0), (60, 0)) and not alone((0, 0), (30, 25))
+
+
+def ring(*points: tuple[float, float], prompt: str = "Survey it.") -> dict[str, Any]:
+    given = {"target_position": [50, 30], "radius": 10}
+    return task("SurveyTarget", given, [go(*at) for at in points], prompt)
+
+
+SQUARE = [(60, 30), (60, 40), (50, 40), (40, 40), (40, 30), (40, 20), (50, 20), (60, 20)]
+
+
+@pytest.mark.parametrize(
+    ("points", "first"),
+    [
+        (SQUARE, (40, 20)),
+        (SQUARE[5:] + SQUARE[:5], (40, 20)),
+        ([(60, 30), (60, 40)], None),
+        ([(40, 20), (50, 20)], (40, 20)),
+    ],
+)
+def test_a_ring_is_begun_where_it_can_be_gone_to_and_nearest(
+    points: list[tuple[float, float]], first: tuple[float, float] | None
+) -> None:
+    plan = document([ring(*points)])
+    added = [mark["note"] for mark in plan["tasks"][0].get("added", ())]
+    turned = first is not None and first != points[0]
+    assert ("begins on the near side" in added) is turned
+    if first:
+        assert waypoints(plan)[0] == [*first] and len(waypoints(plan)) == len(points)
+    else:
+        assert len(waypoints(plan)) > len(points)
+    marked = [mark["step"] for mark in plan["tasks"][0].get("added", ()) if "near" in mark["note"]]
+    assert marked == ([0] if turned else [])
+
+
+def test_marks_of_a_ring_go_round_with_its_steps() -> None:
+    text = "The vehicle keeps at least 5 m from every obstacle."
+    survey = ring(*SQUARE)
+    survey["skill_sequence"][0]["filter_skills"] = [
+        {"name": "ObstacleAvoidance", "parameters": {"min_distance": 9}}
+    ]
+    plan = document([survey], constraints=[text])
+    marks = [one["step"] for one in plan["tasks"][0]["added"] if one["kind"] == "limit"]
+    (kept,) = [
+        at
+        for at, one in enumerate(plan["tasks"][0]["skill_sequence"])
+        if one["filter_skills"][0]["parameters"]["min_distance"] == 9
+    ]
+    assert sorted(marks) == [at for at in range(8) if at != kept] and kept == 3
+
+
+def test_the_face_of_a_pass_is_gone_round_also_where_it_is_as_short_as_a_point() -> None:
+    for length, count in ((120, 19), (5, 2), (1000, 0)):
+        walls = _walls(Face(((0, 0), (length, 0)), 90, 7))
+        assert len(walls) == count
+        if walls:
+            assert walls[0].position == (0, 0) and walls[-1].position == (length, 0)
+            assert {one.standoff for one in walls} == {7}
+    assert len(_walls(Face(((0, 0), (420, 0)), 90, 7))) == 61
+    assert len(_walls(Face(((0, 0), (421, 0)), 90, 7))) == 0
+    assert len(_walls(Face(((0, 0), (10, 0)), 90, 0.1))) == 21
