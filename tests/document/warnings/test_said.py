@@ -213,6 +213,7 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         ("Do not go to [9, 9], go to [9, 9] at last.", [to(9, 9)], ["9,9"]),
         ("Go to [9, 9]. Do not go to [9, 8].", [to(9, 9)], []),
         ("Go to [9, 9]. Do not go to [8, 9].", [to(9, 9)], []),
+        ("Go to [9, 9], hold ten minutes at [9, 9].", HELD, []),
         ("Go to 40,0 and 60,40 and 0,60.", [to(40, 0), to(0, 60)], ["40,0 and 60,40 and 0,60"]),
         ("Never leave 0,0 90,0 90,90 0,90.", [to(9, 9)], ["0,0 90,0 90,90 0,90"]),
     ],
