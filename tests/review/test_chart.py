@@ -192,6 +192,7 @@ def test_a_drawing_has_78_columns_and_22_rows_unless_another_size_is_asked_for()
         sized = chart(track, ["t1"], (0, 0), columns=78, rows=22, braille=True)
         assert chart(track, ["t1"], (0, 0)) == sized
     assert len(chart(high, ["t1"], (0, 0))) == 23
+    assert len(chart(wide, ["t1"], (0, 0))) == 3, "a flat track has no empty rows"
     assert max(map(len, chart(wide, ["t1"], (0, 0))[:-1])) == 70
 
 

@@ -296,7 +296,7 @@ def test_the_values_of_the_vehicle_are_not_learned(usv: Vocabulary) -> None:
     ],
 )
 def test_texts_speak_of_nothing_that_was_taken_out(text: str, found: list[str]) -> None:
-    entry = {"task_prompt": text, "parameters": {"a": "mast head", "b": 3, "c": ["pier"]}}
+    entry = {"task_prompt": text, "parameters": {"a": "mast head", "b": 3, "c": ["pier", "head"]}}
     expected = {"tasks": [entry], "assumptions": [], "constraints": []}
     record = {"prompt": "Go to the pier and the mast head.", "expected": expected}
     problems = list(text_problems(record, ["mast", "pier"]))

@@ -93,6 +93,11 @@ def test_the_words_that_are_quoted() -> None:
     plan = document([THERE, BACK], command="Go to [30, 40] and weld the rail, then come home.")
     (found,) = [one["text"] for one in plan["warnings"] if one["kind"] == "not-planned"]
     assert found == 'The command asks: "weld the rail"; no task of the plan does that.'
+    both = "Go to [30, 40]. Come home, but do not come home."
+    for tasks, ends in (([THERE], "does not end there"), ([THERE, BACK], "ends there")):
+        plan = document(tasks, command=both)
+        (found,) = [one["text"] for one in plan["warnings"] if one["kind"] == "contradiction"]
+        assert found.endswith(f'says "do not come home"; the plan {ends}.')
     plan = document([THERE], command="Weld the rail, then go to [30, 40].")
     assert 'asks: "Weld the rail"' in str(plan["warnings"])
 
