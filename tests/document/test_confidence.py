@@ -164,10 +164,18 @@ def sure(level: str) -> dict[str, Any]:
         ({"task": sure("sure")}, "sure", ""),
         ({"task": sure("check")}, "check", "check"),
         ({"skills": sure("unsure")}, "unsure", "skills unsure"),
-        ({"task": sure("check"), "values": {"radius": sure("unsure")}}, "unsure", "check: radius unsure"),
-        ({"values": {"a": sure("check"), "b": sure("sure")}, "skills": sure("check")}, "check", "a check, skills check"),
+        (
+            {"task": sure("check"), "values": {"radius": sure("unsure")}},
+            "unsure",
+            "check: radius unsure",
+        ),
+        (
+            {"values": {"a": sure("check"), "b": sure("sure")}, "skills": sure("check")},
+            "check",
+            "a check, skills check",
+        ),
     ],
-)  # fmt: skip
+)
 def test_the_least_sure_part_of_a_task(found: Any, least: str | None, doubtful: str) -> None:
     assert least_sure({"confidence": found}) == least
     assert doubtful_text({"confidence": found}) == doubtful

@@ -41,25 +41,86 @@ ADA = ", changed by Ada"
 @pytest.mark.parametrize(
     ("edits", "texts"),
     [
-        ([value("t2", "duration", 90)], [f"task 2, KeepStation: duration 60 -> 90{ADA}", f'task 2, KeepStation: prompt "Hold 60 s." -> "Hold 90 s."{ADA}']),
+        (
+            [value("t2", "duration", 90)],
+            [
+                f"task 2, KeepStation: duration 60 -> 90{ADA}",
+                f'task 2, KeepStation: prompt "Hold 60 s." -> "Hold 90 s."{ADA}',
+            ],
+        ),
         ([value("t2", "duration", None)], [f"task 2, KeepStation: duration 60 -> nothing{ADA}"]),
-        ([value("t1", "target_position", [9, 2], by="Bo"), value("t3", "target_position", [9, 9])], ["task 1, Transit: target_position [1,2] -> [9,2], changed by Bo", f"task 3, Transit: target_position [3,4] -> [9,9]{ADA}"]),
-        ([value("t2", "duration", 90, by="Bo"), {"kind": "prompt", "task": "t2", "text": "Hold."}], ["task 2, KeepStation: duration 60 -> 90, changed by Bo", f'task 2, KeepStation: prompt "Hold 60 s." -> "Hold."{ADA}']),
-        ([value("t2", "duration", 90, by=None)], ["task 2, KeepStation: duration 60 -> 90", 'task 2, KeepStation: prompt "Hold 60 s." -> "Hold 90 s."']),
-        ([{"kind": "locate", "name": "buoy", "position": [7, 8]}], [f"buoy: nothing -> [7,8]{ADA}", f"task 4, Transit: target_position [-99,-99] -> [7,8]{ADA}"]),
-        ([{"kind": "locate", "name": "buoy", "position": [7, 8], "by": "Bo"}, value("t1", "target_position", [9, 2])], ["buoy: nothing -> [7,8], changed by Bo", f"task 1, Transit: target_position [1,2] -> [9,2]{ADA}", "task 4, Transit: target_position [-99,-99] -> [7,8], changed by Bo"]),
+        (
+            [
+                value("t1", "target_position", [9, 2], by="Bo"),
+                value("t3", "target_position", [9, 9]),
+            ],
+            [
+                "task 1, Transit: target_position [1,2] -> [9,2], changed by Bo",
+                f"task 3, Transit: target_position [3,4] -> [9,9]{ADA}",
+            ],
+        ),
+        (
+            [
+                value("t2", "duration", 90, by="Bo"),
+                {"kind": "prompt", "task": "t2", "text": "Hold."},
+            ],
+            [
+                "task 2, KeepStation: duration 60 -> 90, changed by Bo",
+                f'task 2, KeepStation: prompt "Hold 60 s." -> "Hold."{ADA}',
+            ],
+        ),
+        (
+            [value("t2", "duration", 90, by=None)],
+            [
+                "task 2, KeepStation: duration 60 -> 90",
+                'task 2, KeepStation: prompt "Hold 60 s." -> "Hold 90 s."',
+            ],
+        ),
+        (
+            [{"kind": "locate", "name": "buoy", "position": [7, 8]}],
+            [
+                f"buoy: nothing -> [7,8]{ADA}",
+                f"task 4, Transit: target_position [-99,-99] -> [7,8]{ADA}",
+            ],
+        ),
+        (
+            [
+                {"kind": "locate", "name": "buoy", "position": [7, 8], "by": "Bo"},
+                value("t1", "target_position", [9, 2]),
+            ],
+            [
+                "buoy: nothing -> [7,8], changed by Bo",
+                f"task 1, Transit: target_position [1,2] -> [9,2]{ADA}",
+                "task 4, Transit: target_position [-99,-99] -> [7,8], changed by Bo",
+            ],
+        ),
         ([{"kind": "constraint", "at": 0}], [f'constraint "Take care.": removed{ADA}']),
         ([{"kind": "constraint", "at": 1, "text": "Hurry."}], [f'constraint "Hurry.": added{ADA}']),
         ([{"kind": "remove", "task": "t2"}], [f"KeepStation (t2): removed{ADA}"]),
-        ([{"kind": "insert", "at": 1, "title": "Diagnostics"}], [f"task 2, Diagnostics: added{ADA}"]),
-        ([{"kind": "title", "task": "t2", "title": "FeatureStare"}], [f"task 2, FeatureStare: was KeepStation{ADA}"]),
+        (
+            [{"kind": "insert", "at": 1, "title": "Diagnostics"}],
+            [f"task 2, Diagnostics: added{ADA}"],
+        ),
+        (
+            [{"kind": "title", "task": "t2", "title": "FeatureStare"}],
+            [f"task 2, FeatureStare: was KeepStation{ADA}"],
+        ),
         ([{"kind": "move", "task": "t4", "to": 0}], [f"Transit: moved from place 4 to 1{ADA}"]),
         ([{"kind": "move", "task": "t1", "to": 3}], [f"Transit: moved from place 1 to 4{ADA}"]),
-        ([{"kind": "move", "task": "t1", "to": 3}, {"kind": "move", "task": "t2", "to": 2}], ["2", "1"]),
-        ([{"kind": "skills", "task": "t2", "skill_sequence": [step("StationKeep")] * 2}], [f"task 2, KeepStation: skills 1 step -> 2 steps{ADA}"]),
-        ([{"kind": "skills", "task": "t4", "skill_sequence": [step("StationKeep")]}], [f"task 4, Transit: skills nothing -> 1 step{ADA}"]),
+        (
+            [{"kind": "move", "task": "t1", "to": 3}, {"kind": "move", "task": "t2", "to": 2}],
+            ["2", "1"],
+        ),
+        (
+            [{"kind": "skills", "task": "t2", "skill_sequence": [step("StationKeep")] * 2}],
+            [f"task 2, KeepStation: skills 1 step -> 2 steps{ADA}"],
+        ),
+        (
+            [{"kind": "skills", "task": "t4", "skill_sequence": [step("StationKeep")]}],
+            [f"task 4, Transit: skills nothing -> 1 step{ADA}"],
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_difference_is_a_sentence_with_who_made_it(
     plan: PlanDocument, edits: list[dict[str, Any]], texts: list[str]
 ) -> None:

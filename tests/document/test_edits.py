@@ -347,30 +347,114 @@ def test_a_new_task_has_an_id_that_none_had_before(plan: PlanDocument) -> None:
     [
         ({"kind": "move", "task": "t1", "to": 5}, "place 6: the plan has places 1 to 5"),
         ({"kind": "move", "task": "t1", "to": -1}, "place 0: the plan has places 1 to 5"),
-        ({"kind": "insert", "at": 6, "title": "Diagnostics"}, "place 7: the plan has places 1 to 6"),
-        ({"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": []}, "must be an object"),
-        ({"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": {"x": 1}}, "x: is no param"),
+        (
+            {"kind": "insert", "at": 6, "title": "Diagnostics"},
+            "place 7: the plan has places 1 to 6",
+        ),
+        (
+            {"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": []},
+            "must be an object",
+        ),
+        (
+            {"kind": "insert", "at": 0, "title": "Diagnostics", "parameters": {"x": 1}},
+            "x: is no param",
+        ),
         ({"kind": "constraint", "at": 1}, "constraint 2: the plan has 0"),
         ({"kind": "constraint", "at": 0}, "constraint 1: the plan has 0"),
         ({"kind": "constraint", "at": -1, "text": "x"}, "constraint 0: the plan has 0"),
         ({"kind": "constraint", "at": 0, "text": " "}, "constraint 1: the text is empty"),
-        ({"kind": "skill", "task": "t4", "step": 1, "role": "navigation", "index": 0, "name": "time"}, "t4 step 2: the task has 1 steps"),
-        ({"kind": "skill", "task": "t4", "step": -1, "role": "navigation", "index": 0, "name": "time"}, "t4 step 0: the task has 1 steps"),
-        ({"kind": "skill", "task": "t3", "step": 0, "role": "navigation", "index": 0, "name": "time"}, "t3 step 1: the task has 0 steps"),
-        ({"kind": "skill", "task": "t4", "step": 0, "role": "navigation", "index": 1, "name": "time"}, "t4 step 1: has 1 navigation skills, and none of number 2"),
-        ({"kind": "skill", "task": "t4", "step": 0, "role": "filter", "index": 0, "name": "time"}, "t4 step 1: has 0 filter skills, and none of number 1"),
-        ({"kind": "skill", "task": "t4", "step": 0, "role": "navigation", "index": -1, "name": "time"}, "none of number 0"),
-        ({"kind": "drop", "task": "t4", "name": "DetectObjects"}, "t4: has no filter or perception"),
-        ({"kind": "drop", "task": "t4", "name": "DetectObjects", "step": 1}, "one of the task's 1, from 0"),
-        ({"kind": "drop", "task": "t4", "name": "DetectObjects", "step": -1}, "one of the task's 1, from 0"),
-        ({"kind": "drop", "task": "t3", "name": "DetectObjects", "step": 0}, "one of the task's 0, from 0"),
-        ({"kind": "drop", "task": "t4", "name": "DetectObjects", "step": 0}, "t4 step 1: has no filter"),
+        (
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": 1,
+                "role": "navigation",
+                "index": 0,
+                "name": "time",
+            },
+            "t4 step 2: the task has 1 steps",
+        ),
+        (
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": -1,
+                "role": "navigation",
+                "index": 0,
+                "name": "time",
+            },
+            "t4 step 0: the task has 1 steps",
+        ),
+        (
+            {
+                "kind": "skill",
+                "task": "t3",
+                "step": 0,
+                "role": "navigation",
+                "index": 0,
+                "name": "time",
+            },
+            "t3 step 1: the task has 0 steps",
+        ),
+        (
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": 0,
+                "role": "navigation",
+                "index": 1,
+                "name": "time",
+            },
+            "t4 step 1: has 1 navigation skills, and none of number 2",
+        ),
+        (
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": 0,
+                "role": "filter",
+                "index": 0,
+                "name": "time",
+            },
+            "t4 step 1: has 0 filter skills, and none of number 1",
+        ),
+        (
+            {
+                "kind": "skill",
+                "task": "t4",
+                "step": 0,
+                "role": "navigation",
+                "index": -1,
+                "name": "time",
+            },
+            "none of number 0",
+        ),
+        (
+            {"kind": "drop", "task": "t4", "name": "DetectObjects"},
+            "t4: has no filter or perception",
+        ),
+        (
+            {"kind": "drop", "task": "t4", "name": "DetectObjects", "step": 1},
+            "one of the task's 1, from 0",
+        ),
+        (
+            {"kind": "drop", "task": "t4", "name": "DetectObjects", "step": -1},
+            "one of the task's 1, from 0",
+        ),
+        (
+            {"kind": "drop", "task": "t3", "name": "DetectObjects", "step": 0},
+            "one of the task's 0, from 0",
+        ),
+        (
+            {"kind": "drop", "task": "t4", "name": "DetectObjects", "step": 0},
+            "t4 step 1: has no filter",
+        ),
         ({"kind": "replace", "tasks": [{"id": "t1"}]}, "edit replace: {'id': 't1'} is not valid"),
         ({"kind": "prompt", "task": "t1", "text": "x" * 4001}, "at most 4000 characters"),
         ({"kind": "remove", "task": "x" * 120}, f"task {'x' * 120}: is not"),
         ({"kind": "remove", "task": "x" * 121}, f"task {'x' * 120} ...: is not"),
     ],
-)  # fmt: skip
+)
 def test_the_first_and_last_that_an_edit_can_name(
     plan: PlanDocument, edit: dict[str, Any], sentence: str
 ) -> None:

@@ -270,14 +270,30 @@ def moving() -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("command", "text", "words"),
     [
-        ("Go; stay within 90 m of home, please.", "The vehicle stays within 90 m of home.", "stay within 90 m of home"),
-        ("Go to [3, 4], at most 2 m/s fast.", "The vehicle goes no faster than 2 m/s.", "at most 2 m/s fast"),
+        (
+            "Go; stay within 90 m of home, please.",
+            "The vehicle stays within 90 m of home.",
+            "stay within 90 m of home",
+        ),
+        (
+            "Go to [3, 4], at most 2 m/s fast.",
+            "The vehicle goes no faster than 2 m/s.",
+            "at most 2 m/s fast",
+        ),
         ("Take at most 600 s.", "The mission takes at most 600 s.", "Take at most 600 s"),
-        ("Go to [3, 4], keep 9 m from [50, 50], go on.", "The vehicle stays at least 9 m from [50, 50].", "keep 9 m from [50, 50]"),
-        ("Stay off the ferry.", "The vehicle stays at least 9 m from the Ferry.", "Stay off the ferry"),
+        (
+            "Go to [3, 4], keep 9 m from [50, 50], go on.",
+            "The vehicle stays at least 9 m from [50, 50].",
+            "keep 9 m from [50, 50]",
+        ),
+        (
+            "Stay off the ferry.",
+            "The vehicle stays at least 9 m from the Ferry.",
+            "Stay off the ferry",
+        ),
         ("Stay off.", "The vehicle stays at least 9 m from the ferry.", None),
     ],
-)  # fmt: skip
+)
 def test_the_words_of_a_limit_are_its_clause(command: str, text: str, words: str | None) -> None:
     (limit,) = document([transit(3, 4)], command=command, constraints=[text])["limits"]
     assert limit.get("words") == words

@@ -105,22 +105,34 @@ def test_phrases_are_whole_words_with_endings_and_gaps() -> None:
 @pytest.mark.parametrize(
     ("command", "targets"),
     [
-        ("Circle the pier (50, 60), buoy 7 and contact Alpha 12.", ["the pier (50, 60)", "buoy 7", "contact Alpha 12"]),
+        (
+            "Circle the pier (50, 60), buoy 7 and contact Alpha 12.",
+            ["the pier (50, 60)", "buoy 7", "contact Alpha 12"],
+        ),
         ("Go to the mast, located at [40, 12].", ["the mast, located at [40, 12]"]),
         ("Go to the mast, lying near (40, 12).", ["the mast, lying near (40, 12)"]),
         ("Go to [40, 12], the mast.", ["[40, 12]", "the mast"]),
         ("Go to 40, 12.", ["40, 12"]),
         ("Go to the mast" + " " * 33 + "at 40, 12.", ["the mast" + " " * 33 + "at 40, 12"]),
         ("Go to the mast" + " " * 40 + "at 40, 12.", ["the mast", "40, 12"]),
-        ("Go to the one two three four five six seven, then rest.", ["the one two three four five six seven"]),
-        ("Go to the one two three four five six seven eight.", ["the one two three four five six seven"]),
-        ("Go to the wreck of the ship with the red hull.", ["the wreck of the ship", "the red hull"]),
+        (
+            "Go to the one two three four five six seven, then rest.",
+            ["the one two three four five six seven"],
+        ),
+        (
+            "Go to the one two three four five six seven eight.",
+            ["the one two three four five six seven"],
+        ),
+        (
+            "Go to the wreck of the ship with the red hull.",
+            ["the wreck of the ship", "the red hull"],
+        ),
         ("Go to the wreck of old ships.", ["the wreck of old ships"]),
         ("Go to the wreck of the.", ["the wreck"]),
         ("Stay for the night, the panorama, and the ladder.", ["the ladder"]),
         ("Look here at target Big Ben Tower.", ["here", "target Big Ben"]),
     ],
-)  # fmt: skip
+)
 def test_targets_begin_with_their_article_and_end_with_their_coordinates(
     command: str, targets: list[str]
 ) -> None:
@@ -155,11 +167,14 @@ def test_a_command_of_1500_characters_is_read_at_once() -> None:
 @pytest.mark.parametrize(
     ("command", "clauses"),
     [
-        ("Go to 1,2, and 3,4. Then hold; film it: yes!\nHome", ["Go to 1,2", "3,4", "hold", "film it", "yes", "Home"]),
+        (
+            "Go to 1,2, and 3,4. Then hold; film it: yes!\nHome",
+            ["Go to 1,2", "3,4", "hold", "film it", "yes", "Home"],
+        ),
         ("At 14.30 go to 1, 2 after that home.", ["At 14.30 go to 1, 2", "home"]),
         ("Go 1, -3 m off", ["Go 1, -3 m off"]),
     ],
-)  # fmt: skip
+)
 def test_clauses_end_at_signs_that_are_in_no_number(command: str, clauses: list[str]) -> None:
     found = read_clauses(command, USV)
     assert [one.text.strip() for one in found] == clauses
@@ -206,14 +221,17 @@ def test_things_beside_positions_are_no_places_of_the_water() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('ask = 3\n', "every [[ask]] needs the lists words and tasks"),
+        ("ask = 3\n", "every [[ask]] needs the lists words and tasks"),
         ('[[ask]]\nwords = []\ntasks = ["TakePhoto"]\n', "needs the lists words and tasks"),
         ('[[ask]]\nwords = [" "]\ntasks = ["TakePhoto"]\n', "needs the lists words and tasks"),
-        ('[[ask]]\nwords = ["x"]\ntasks = ["FlyToPoint"]\nnouns = 3\n', "[[ask]]: nouns must be a list of words"),
+        (
+            '[[ask]]\nwords = ["x"]\ntasks = ["FlyToPoint"]\nnouns = 3\n',
+            "[[ask]]: nouns must be a list of words",
+        ),
         ('[[data]]\nwords = ["x"]\nskills = 3\n', "[[data]]: skills must be a list of names"),
-        ('sensor = 3\n', "[sensor] needs the list words"),
+        ("sensor = 3\n", "[sensor] needs the list words"),
     ],
-)  # fmt: skip
+)
 def test_every_list_of_an_ontology_is_one_of_texts(tmp_path: Path, text: str, said: str) -> None:
     (tmp_path / "mine.toml").write_text((BUNDLED / "inspection_drone.toml").read_text())
     (tmp_path / "mine.ontology.toml").write_text(text)

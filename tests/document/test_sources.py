@@ -225,13 +225,33 @@ def test_a_value_is_from_the_words_nearest_to_those_of_its_task() -> None:
     [
         ("Go to [0, 0], come home.", {"target_position": [0, 0]}, "command", None),
         ("Come home, go home.", {"target_position": [0, 0]}, "derived", "home"),
-        ("Go out.", {"target_position": [0, 0]}, "model", "home, which the command does not speak of"),
-        ("Go to [3, 4], 10 m north of it.", {"target_position": [3, 14]}, "derived", "follows from what the command says"),
-        ("三 go to [3, 4].", {"target_position": [3, 14]}, "model", "the command could not be read with certainty"),
+        (
+            "Go out.",
+            {"target_position": [0, 0]},
+            "model",
+            "home, which the command does not speak of",
+        ),
+        (
+            "Go to [3, 4], 10 m north of it.",
+            {"target_position": [3, 14]},
+            "derived",
+            "follows from what the command says",
+        ),
+        (
+            "三 go to [3, 4].",
+            {"target_position": [3, 14]},
+            "model",
+            "the command could not be read with certainty",
+        ),
         ("Go to [3, 4].", {"target_position": [3, 14]}, "model", "the command does not say it"),
-        ("Go to it.", {"target_position": [-99, -99]}, "derived", "unresolved location: the command gives no coordinates"),
+        (
+            "Go to it.",
+            {"target_position": [-99, -99]},
+            "derived",
+            "unresolved location: the command gives no coordinates",
+        ),
     ],
-)  # fmt: skip
+)
 def test_where_a_position_is_from(
     command: str, given: dict[str, Any], kind: str, note: str | None
 ) -> None:

@@ -87,22 +87,70 @@ STEPS = SECOND["skill_sequence"]
         ({"a": [1, 2]}, {"a": [1, 3]}, ["a: approved [1,2], now [1,3]"]),
         ({"a": [1]}, {"a": {"b": 1}}, ['a: approved [1], now {"b":1}']),
         ({"a": {"b": 1}}, {"a": [1]}, ['a: approved {"b":1}, now [1]']),
-        ({"a": [{"b": 1}, {"b": 2}]}, {"a": [{"b": 1}, {"b": 3}]}, ["a, item 2, b: approved 2, now 3"]),
+        (
+            {"a": [{"b": 1}, {"b": 2}]},
+            {"a": [{"b": 1}, {"b": 3}]},
+            ["a, item 2, b: approved 2, now 3"],
+        ),
         ({"a": [{"b": 1}]}, {"a": []}, ['a, item 1: approved {"b":1}, now nothing']),
         ({"a": []}, {"a": [{"name": "n"}]}, ['a, n: approved nothing, now {"name":"n"}']),
         ({"digest": "x"}, {"digest": "y"}, ['digest: approved "x", now "y"']),
         ({"digest": "x", "a": 1}, {"digest": "y", "a": 2}, ["a: approved 1, now 2"]),
-        ({"warnings": 1, "b": 1}, {"warnings": 2, "b": 2}, ["b: approved 1, now 2", "warnings: approved 1, now 2"]),
-        ({"tasks": [FIRST, SECOND]}, {"tasks": [FIRST, entry("t2", radius=3)]}, ["task 2, radius: approved 2, now 3"]),
-        ({"tasks": [FIRST, SECOND]}, {"tasks": [SECOND, FIRST]}, ["order of tasks: approved t1, t2, now t2, t1"]),
-        ({"tasks": [FIRST]}, {"tasks": [SECOND, FIRST]}, [f"task 1: approved nothing, now {compact_json(SECOND)[:120]} ..."]),
-        ({"tasks": [FIRST, SECOND]}, {"tasks": [SECOND]}, [f"task 1: approved {compact_json(FIRST)[:120]} ..., now nothing"]),
-        ({"tasks": [FIRST, SECOND, THIRD]}, {"tasks": [THIRD, SECOND]}, [f"task 1: approved {compact_json(FIRST)[:120]} ..., now nothing", "order of tasks: approved t2, t3, now t3, t2"]),
-        ({"tasks": [{**SECOND, "skill_sequence": STEPS * 2}]}, {"tasks": [{**SECOND, "skill_sequence": [*STEPS, {**STEPS[0], "navigation_skill": {"name": "GoToXY", "parameters": {"x": 5}}}]}]}, ["task 1, step 2, GoToXY, x: approved 1, now 5"]),
+        (
+            {"warnings": 1, "b": 1},
+            {"warnings": 2, "b": 2},
+            ["b: approved 1, now 2", "warnings: approved 1, now 2"],
+        ),
+        (
+            {"tasks": [FIRST, SECOND]},
+            {"tasks": [FIRST, entry("t2", radius=3)]},
+            ["task 2, radius: approved 2, now 3"],
+        ),
+        (
+            {"tasks": [FIRST, SECOND]},
+            {"tasks": [SECOND, FIRST]},
+            ["order of tasks: approved t1, t2, now t2, t1"],
+        ),
+        (
+            {"tasks": [FIRST]},
+            {"tasks": [SECOND, FIRST]},
+            [f"task 1: approved nothing, now {compact_json(SECOND)[:120]} ..."],
+        ),
+        (
+            {"tasks": [FIRST, SECOND]},
+            {"tasks": [SECOND]},
+            [f"task 1: approved {compact_json(FIRST)[:120]} ..., now nothing"],
+        ),
+        (
+            {"tasks": [FIRST, SECOND, THIRD]},
+            {"tasks": [THIRD, SECOND]},
+            [
+                f"task 1: approved {compact_json(FIRST)[:120]} ..., now nothing",
+                "order of tasks: approved t2, t3, now t3, t2",
+            ],
+        ),
+        (
+            {"tasks": [{**SECOND, "skill_sequence": STEPS * 2}]},
+            {
+                "tasks": [
+                    {
+                        **SECOND,
+                        "skill_sequence": [
+                            *STEPS,
+                            {
+                                **STEPS[0],
+                                "navigation_skill": {"name": "GoToXY", "parameters": {"x": 5}},
+                            },
+                        ],
+                    }
+                ]
+            },
+            ["task 1, step 2, GoToXY, x: approved 1, now 5"],
+        ),
         ("x" * 118, "y", [f'the plan: approved "{"x" * 118}", now "y"']),
         ("x" * 119, "y", [f'the plan: approved "{"x" * 119} ..., now "y"']),
     ],
-)  # fmt: skip
+)
 def test_every_value_that_differs_is_named_for_people(
     approved: Any, now: Any, said: list[str]
 ) -> None:

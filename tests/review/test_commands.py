@@ -240,7 +240,16 @@ def skill(step: int, role: str, index: int, name: str, value: Any) -> dict[str, 
         ("move 3 3", {"kind": "move", "task": "t3", "to": 2}),
         ("constraint 1", {"kind": "constraint", "at": 0}),
         ("constraint 2 Hurry up.", {"kind": "constraint", "at": 1, "text": "Hurry up."}),
-        ("insert 4 Diagnostics", {"kind": "insert", "at": 3, "title": "Diagnostics", "parameters": {}, "task_prompt": ""}),
+        (
+            "insert 4 Diagnostics",
+            {
+                "kind": "insert",
+                "at": 3,
+                "title": "Diagnostics",
+                "parameters": {},
+                "task_prompt": "",
+            },
+        ),
         ("3.2.x=3", skill(1, "navigation", 0, "x", 3)),
         ("3.1.x=3", skill(0, "navigation", 0, "x", 3)),
         ("3.2.LogLidarSlice.scan_angle=3", skill(1, "perception", 0, "scan_angle", 3)),
@@ -248,14 +257,17 @@ def skill(step: int, role: str, index: int, name: str, value: Any) -> dict[str, 
         ("3.2.LogLidarSlice#2.scan_angle=3", skill(1, "perception", 1, "scan_angle", 3)),
         ("3.2.ObstacleAvoidance.min_distance=3", skill(1, "filter", 0, "min_distance", 3)),
         ("2.center=(1,2)", {"kind": "parameter", "task": "t2", "name": "center", "value": [1, 2]}),
-        ("1.target_description=[1]", {"kind": "parameter", "task": "t1", "name": "target_description", "value": "[1]"}),
+        (
+            "1.target_description=[1]",
+            {"kind": "parameter", "task": "t1", "name": "target_description", "value": "[1]"},
+        ),
         ("skills 2", {"kind": "ask", "tasks": ["t2"]}),
         ("skills", {"kind": "ask", "tasks": ["t1"]}),
         ("origin 54,10", {"kind": "origin", "place": "54,10"}),
         ("locate red buoy=1,2", {"kind": "locate", "name": "red buoy", "position": [1, 2]}),
         ("locate Green Buoy=1,2", {"kind": "locate", "name": "green buoy", "position": [1, 2]}),
     ],
-)  # fmt: skip
+)
 def test_numbers_are_counted_from_one(
     longer: PlanDocument, usv: Vocabulary, text: str, edit: dict[str, Any]
 ) -> None:
@@ -282,12 +294,15 @@ def test_numbers_are_counted_from_one(
         ("3.0.x=3", "Transit: has no step 0; it has 2"),
         ("3.3.x=3", "Transit: has no step 3; it has 2"),
         ("1.1.x=3", "SearchAndDetect: has no step 1; it has 0"),
-        ("3.2.LogLidarSlice#3.scan_angle=1", "step 2 has no skill LogLidarSlice#3; it has GoToXY, ObstacleAvoidance, LogLidarSlice"),
+        (
+            "3.2.LogLidarSlice#3.scan_angle=1",
+            "step 2 has no skill LogLidarSlice#3; it has GoToXY, ObstacleAvoidance, LogLidarSlice",
+        ),
         ("3.x.y=3", "such as 2.1.GoToXY.x"),
         ("999999999.radius=1", "task 999999999: the plan has tasks 1 to 3"),
         ("skills 4", "task 4: the plan has tasks 1 to 3"),
     ],
-)  # fmt: skip
+)
 def test_the_first_and_last_that_can_be_named(
     longer: PlanDocument, usv: Vocabulary, text: str, sentence: str
 ) -> None:

@@ -163,7 +163,8 @@ def test_a_head_of_another_record_says_which_line_was_replaced(count: int) -> No
     assert [(one.line, one.text) for one in chain.problems] == [
         (
             count,
-            f"line {count} (record {count}) is not the record that the head file knows; it was replaced",
+            f"line {count} (record {count}) is not the record that the head file knows;"
+            " it was replaced",
         )
     ]
 

@@ -38,31 +38,75 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
 @pytest.mark.parametrize(
     ("command", "tasks", "ids"),
     [
-        ("Go to [30, 40], take a panorama, and come home.", [THERE, BACK], ["not-planned:panorama"]),
+        (
+            "Go to [30, 40], take a panorama, and come home.",
+            [THERE, BACK],
+            ["not-planned:panorama"],
+        ),
         ("Go to [30, 40], take a panorama, and come home.", [THERE, PANORAMA, BACK], []),
         ("Go to [30, 40], weld the rail and come home.", [THERE, BACK], ["not-planned:weld"]),
         ("Weld the rail.", [], []),
         ("Go to [30, 40], here we want no panorama, come home.", [THERE, BACK], []),
-        ("Take a panorama but no report, go to [30, 40], come home.", [THERE, BACK], ["not-planned:panorama"]),
+        (
+            "Take a panorama but no report, go to [30, 40], come home.",
+            [THERE, BACK],
+            ["not-planned:panorama"],
+        ),
         ("Go to [30, 40] and never weld the rail, come home.", [THERE, BACK], []),
         ("Go to [30, 40], weld, no, scratch that, come home.", [THERE, BACK], []),
         ("Go to [30, 40], dock, and come home.", [THERE, BACK], ["not-planned:dock"]),
         ("Go to [30, 40] by the dock, and come home.", [THERE, BACK], []),
         ("Go to [30, 40] by the old dry dock, and come home.", [THERE, BACK], []),
-        ("Go to [30, 40] by the very old dry dock, and come home.", [THERE, BACK], ["not-planned:dock"]),
+        (
+            "Go to [30, 40] by the very old dry dock, and come home.",
+            [THERE, BACK],
+            ["not-planned:dock"],
+        ),
         ("Go to [30, 40], send the panorama and come home.", [THERE, BACK], ["not-planned:send"]),
-        ("Go to [30, 40], make some coffee, and come home.", [THERE, BACK], ["not-planned:make some coffee"]),
-        ("Go to [30, 40], make some coffee, and come home.", [THERE, BACK | {"task_prompt": "Make coffee."}], []),
+        (
+            "Go to [30, 40], make some coffee, and come home.",
+            [THERE, BACK],
+            ["not-planned:make some coffee"],
+        ),
+        (
+            "Go to [30, 40], make some coffee, and come home.",
+            [THERE, BACK | {"task_prompt": "Make coffee."}],
+            [],
+        ),
         ("Go to [30, 40], make for it, and come home.", [THERE, BACK], []),
         ("Go to [30, 40], make 3 knots, and come home.", [THERE, BACK], []),
         ("Go to [30, 40], record nothing, and come home.", [THERE, BACK], []),
-        ("Go to [30, 40], find the buoy, make coffee, and come home.", [SEARCH, THERE, BACK], ["not-planned:make coffee"]),
-        ("Hold here, make coffee, and come home.", [to(9, 9), hold(600), BACK], ["not-planned:make coffee", "value-not-said:t1:target_position", "value-not-said:t2:duration"]),
-        ("Hold here, make coffee, and come home.", [hold(600), hold(600), BACK], ["value-not-said:t1:duration", "value-not-said:t2:duration"]),
-        ("Go to [30, 40]. Come home, but do not come home.", [THERE], ["contradiction:home", "missing-return"]),
+        (
+            "Go to [30, 40], find the buoy, make coffee, and come home.",
+            [SEARCH, THERE, BACK],
+            ["not-planned:make coffee"],
+        ),
+        (
+            "Hold here, make coffee, and come home.",
+            [to(9, 9), hold(600), BACK],
+            [
+                "not-planned:make coffee",
+                "value-not-said:t1:target_position",
+                "value-not-said:t2:duration",
+            ],
+        ),
+        (
+            "Hold here, make coffee, and come home.",
+            [hold(600), hold(600), BACK],
+            ["value-not-said:t1:duration", "value-not-said:t2:duration"],
+        ),
+        (
+            "Go to [30, 40]. Come home, but do not come home.",
+            [THERE],
+            ["contradiction:home", "missing-return"],
+        ),
         ("Go to [30, 40]. Come home, but do not come home.", [THERE, BACK], ["contradiction:home"]),
         ("Go to [30, 40]. No, do not come home.", [THERE], []),
-        ("Look all round. No panorama after all.", [PANORAMA], ["contradiction:t1:no panorama after all"]),
+        (
+            "Look all round. No panorama after all.",
+            [PANORAMA],
+            ["contradiction:t1:no panorama after all"],
+        ),
         ("Look all round. No panorama after all.", [PANORAMA, PANORAMA], []),
         ("No panorama. Take a panorama.", [PANORAMA], []),
         ("Take a panorama. No need to hurry or to be late, panorama.", [PANORAMA], []),
@@ -71,7 +115,11 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ("Go to [31, 40], come home.", [THERE, BACK], ["value-not-said:t1:target_position"]),
         ("Go to 30 40, hold it.", [THERE, hold(40)], ["value-not-said:t2:duration"]),
         ("Go to 30 40, hold it 40 s.", [THERE, hold(40)], []),
-        ("Go to [30, 40], hold it 40 s.", [THERE, hold(40, "Hold 50 s.")], ["contradiction:t2:duration"]),
+        (
+            "Go to [30, 40], hold it 40 s.",
+            [THERE, hold(40, "Hold 50 s.")],
+            ["contradiction:t2:duration"],
+        ),
         ("Go to [30, 40], hold it 40 s.", [THERE, hold(40, "Hold 40 s.")], []),
         ("Go to [30, 40], hold it 40 s.", [THERE, hold(40, "Hold at 7 m.")], []),
         ("Go to [30, 40].", [to(30, 40, "Go to [30, 41].")], ["contradiction:t1:target_position"]),
@@ -80,7 +128,7 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ("Go to [30, 40], no pictures, take pictures.", [THERE], ["data-not-planned:pictures"]),
         ("Go to [30, 40], take pictures, scratch that.", [THERE], []),
     ],
-)  # fmt: skip
+)
 def test_what_is_asked_and_what_is_planned(
     command: str, tasks: list[dict[str, Any]], ids: list[str]
 ) -> None:

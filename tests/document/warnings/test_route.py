@@ -1,4 +1,4 @@
-"""Order and return of a plan, steps that perform their task at the bound, values it has together."""
+"""Order and return of a plan, steps that perform their task at the bound, sizes said together."""
 
 from __future__ import annotations
 
@@ -172,7 +172,8 @@ def test_a_leg_that_comes_too_close_is_told_in_tenths_of_metres(
     texts = close(to(100, 0), chart={"mast": mast})
     assert texts == (
         [
-            f"Task 1, Transit passes {metres} m from mast at {list(mast)}; the stand-off from it is 10 m."
+            f"Task 1, Transit passes {metres} m from mast at {list(mast)};"
+            " the stand-off from it is 10 m."
         ]
         if metres
         else []

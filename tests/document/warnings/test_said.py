@@ -121,9 +121,13 @@ def test_what_is_lost_is_told(
 
 @pytest.mark.parametrize(
     ("prompt", "made"),
-    [("Inspect reliping at [9, 9].", ["reliping"]), ("Inspect the Durius at [9, 9].", []),
-     ("Inspect the durios.", []), ("Inspect the buoy.", [])],
-)  # fmt: skip
+    [
+        ("Inspect reliping at [9, 9].", ["reliping"]),
+        ("Inspect the Durius at [9, 9].", []),
+        ("Inspect the durios.", []),
+        ("Inspect the buoy.", []),
+    ],
+)
 def test_words_that_nobody_said_are_told(prompt: str, made: list[str]) -> None:
     survey = task("SurveyTarget", {"target_position": [9, 9]}, None, prompt)
     plan = document([survey], command="Inspect the Durius at 9,9.")
@@ -180,13 +184,33 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         ("Hold at 9,9 on course 95, bearing: 270.", HELD, ["95", "270"]),
         ("Hold at 9,9 on a course of 95 degrees.", HELD, ["95 degrees"]),
         ("Circle it at 9 m. Actually 20 will do. Hold 5 m.", [orbit(360)], ["5 m"]),
-        ("Hold 5 m. Circle it at 9 m, come home by the north side. Actually 20 will do.", [orbit(360), to(0, 0)], ["9 m"]),
-        ("Circle it at 9 m, come home by the north side. Actually 360 degrees will do.", [orbit(360), to(0, 0)], ["9 m"]),
+        (
+            "Hold 5 m. Circle it at 9 m, come home by the north side. Actually 20 will do.",
+            [orbit(360), to(0, 0)],
+            ["9 m"],
+        ),
+        (
+            "Circle it at 9 m, come home by the north side. Actually 360 degrees will do.",
+            [orbit(360), to(0, 0)],
+            ["9 m"],
+        ),
         ("Hold 9 minutes at 9,9, then home. Actually 10 will do.", [*HELD, to(0, 0)], []),
         ("Hold 9 minutes at 9,9, then home. Actually 600 will do.", [*HELD, to(0, 0)], []),
-        ("Hold 9 s at 9,9, then home. Actually 2 will do.", [to(9, 9), hold(7200), to(0, 0)], ["2"]),
-        ("Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.", [*HELD, to(0, 0)], ["8 s", "10 s"]),
-        ("Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.", [to(9, 9), hold(10), to(0, 0)], []),
+        (
+            "Hold 9 s at 9,9, then home. Actually 2 will do.",
+            [to(9, 9), hold(7200), to(0, 0)],
+            ["2"],
+        ),
+        (
+            "Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.",
+            [*HELD, to(0, 0)],
+            ["8 s", "10 s"],
+        ),
+        (
+            "Hold 8 s at 9,9, come home by the north side. Actually 10 s will do.",
+            [to(9, 9), hold(10), to(0, 0)],
+            [],
+        ),
         ("Circle the mast at 60,60, radius: 15.", [orbit(360)], ["15"]),
         ("Circle the mast at 60,60, the radius of 15.", [orbit(360)], ["15"]),
         ("Circle the mast at 60,60, no radius 15.", [orbit(360)], []),
@@ -217,7 +241,7 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         ("Go to 40,0 and 60,40 and 0,60.", [to(40, 0), to(0, 60)], ["40,0 and 60,40 and 0,60"]),
         ("Never leave 0,0 90,0 90,90 0,90.", [to(9, 9)], ["0,0 90,0 90,90 0,90"]),
     ],
-)  # fmt: skip
+)
 def test_the_words_that_are_lost_and_no_others(
     command: str, tasks: list[dict[str, Any]], words: list[str]
 ) -> None:
@@ -243,14 +267,18 @@ NEAR = "The vehicle stays at least 70 m from the wreck at [40, 9]."
         ("Go to [9, 9]. Be back by 16:30.", (SLOW.format(2),), ["be back by 16:30"]),
         ("Be back by 16:30, go to [9, 9].", (), ["be back by 16:30"]),
         ("Go to [9, 9]. Stay away from the wreck at 40,9.", (NEAR,), []),
-        ("Go to [9, 9]. Stay away from the wreck at 40,8.", (NEAR,), ["stay away from the wreck at 40,8"]),
+        (
+            "Go to [9, 9]. Stay away from the wreck at 40,8.",
+            (NEAR,),
+            ["stay away from the wreck at 40,8"],
+        ),
         ("Go to [9, 9]. Stay away from the wrecks.", (NEAR,), []),
         ("Go to [9, 9]. Stay away from the pontoons.", (NEAR,), ["stay away from the pontoons"]),
         ("Go to [9, 9]. Do not go beyond x = 9.", (), ["do not go beyond x = 9"]),
         ("Go to [9, 9]. Do not go beyond x = 120.", (), ["do not go beyond x = 120"]),
         ("Go to [9, 9]. Do not go beyond boat 120.", (), []),
     ],
-)  # fmt: skip
+)
 def test_a_limit_is_kept_by_a_limit_or_a_value_and_else_lost(
     command: str, limits: tuple[str, ...], words: list[str]
 ) -> None:

@@ -28,11 +28,14 @@ COMMAND = "Go to [30, 40]."
     [
         ([GO], []),
         ([GO, step("StationKeep", {"time": 45})], ["StationKeep has time 45 s"]),
-        ([GO, step("StationKeep", {"time": 45, "radius": 3})], ["StationKeep has time 45 s", "StationKeep has radius 3 m"]),
+        (
+            [GO, step("StationKeep", {"time": 45, "radius": 3})],
+            ["StationKeep has time 45 s", "StationKeep has radius 3 m"],
+        ),
         ([GO, step("GoToXY", {"x": 31, "y": 40})], ["GoToXY has waypoint [31, 40]"]),
         ([step("GoToXY", {"x": 30, "y": 40, "yaw": 77})], ["GoToXY has yaw 77 deg"]),
     ],
-)  # fmt: skip
+)
 def test_values_of_steps_are_shown_with_their_unit(
     steps: list[dict[str, Any]], said: list[str]
 ) -> None:

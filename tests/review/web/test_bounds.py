@@ -51,7 +51,14 @@ def refused(method: str = "POST", path: str = "/api/edit", **headers: str | None
         ({"content_type": " Application/JSON "}, None),
         ({"content_type": None}, 415),
         ({"origin": f"http://{HOST}"}, None),
-        ({"origin": f"http://{HOST}", "authorization": None, "cookie": f"plannerft_{PORT}={'k' * 43}"}, None),
+        (
+            {
+                "origin": f"http://{HOST}",
+                "authorization": None,
+                "cookie": f"plannerft_{PORT}={'k' * 43}",
+            },
+            None,
+        ),
         ({"authorization": None, "cookie": f"plannerft_{PORT}={'k' * 43}"}, 403),
         ({"authorization": f"bearer {'k' * 43}"}, None),
         ({"authorization": f"Basic {'k' * 43}"}, 403),
@@ -59,12 +66,15 @@ def refused(method: str = "POST", path: str = "/api/edit", **headers: str | None
         ({"sec_fetch_site": "none"}, 403),
         ({"sec_fetch_site": "none", "method": "GET"}, None),
         ({"sec_fetch_site": "same-site", "method": "GET"}, 403),
-        ({"sec_fetch_site": "same-site", "method": "GET", "path": "/", "authorization": None}, None),
+        (
+            {"sec_fetch_site": "same-site", "method": "GET", "path": "/", "authorization": None},
+            None,
+        ),
         ({"method": "GET", "content_type": None, "content_length": None}, None),
         ({"method": "PUT"}, 405),
         ({"host": None}, 403),
     ],
-)  # fmt: skip
+)
 def test_what_is_let_in(changed: dict[str, Any], status: int | None) -> None:
     assert refused(**changed) == status
 
