@@ -52,7 +52,7 @@ def documentation_page(vocabulary: Vocabulary) -> str:
     """docs/vocabulary.md: tasks by category, then skills by role, each with its parameters."""
     import jinja2
 
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, keep_trailing_newline=True)
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined)
     template = environment.from_string(read_text(PAGE))
     categories = dict.fromkeys(task.category for task in vocabulary.tasks)
     page = template.render(

@@ -10,7 +10,7 @@ import pytest
 
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.schema import all_schemas, stale_schemas
+from planner_ft.vocabulary.schema import all_schemas, stale_schemas, write_schemas
 from planner_ft.vocabulary.text import documentation_page, prompt_text, stale_page
 
 ROOT = Path(__file__).parents[2]
@@ -68,6 +68,9 @@ def test_texts_name_every_task_skill_and_parameter(vocabulary: str) -> None:
 
 def test_a_changed_file_is_stale(tmp_path: Path) -> None:
     assert set(stale_schemas(tmp_path, USV)) == set(all_schemas(USV))
+    written = write_schemas(tmp_path, USV)
+    assert {path.name for path in written} == set(all_schemas(USV))
+    assert all(path.is_file() for path in written) and stale_schemas(tmp_path, USV) == []
     (tmp_path / "mission.schema.json").write_text("{}")
     assert "mission.schema.json" in stale_schemas(tmp_path, USV)
     assert stale_page(tmp_path / "vocabulary.md", USV)

@@ -92,7 +92,7 @@ class Waypoints:
         found = [
             (path, place + 1)
             for path, place in self._passing.get(before[-1] if before else (), ())
-            if place < len(before) and path[: place + 1] == before[len(before) - place - 1 :]
+            if path[: place + 1] == before[-place - 1 :]
         ]
         most = max((done for _path, done in found), default=0)
         return [(path, done) for path, done in found if done == most]
