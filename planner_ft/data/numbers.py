@@ -211,13 +211,13 @@ def feet(rng: Random, low: float, high: float) -> Value | None:
     if not fitting:
         return None
     number = pick(fitting, rng)
-    return _worded("feet", tidy(round(number * 0.3048, 2)), {"n": str(number)}, rng)
+    return _worded("feet", tidy(number * 0.3048), {"n": str(number)}, rng)
 
 
 def knots(rng: Random) -> Value:
     """A speed in knots, m/s in the plan."""
     number = pick((1, 2, 3, 4, 5, 0.5, 1.5, 2.5), rng)
-    return _worded("knots", tidy(round(number * 0.514444, 2)), _size(number, rng), rng)
+    return _worded("knots", tidy(number * 0.514444), _size(number, rng), rng)
 
 
 def position(value: Point, rng: Random, form: str | None = None) -> Value:
