@@ -111,6 +111,7 @@ SAID = """
     {tree five = 35} | {fower days = 345600 s} | {two = 2} tree
     at {two hundred = 200} and {one hundred = 100} | {one hundred = 100} {one hundred = 100}
     {hundred hundred metres = 10000 m} | keep {30 fet = 9.144 m} off
+    {one hundred and five = 105} | {a hundred and twenty metres = 120 m}
 """
 """Texts with their numbers: {words = value unit}, with a star where they count things."""
 _SAID = re.compile(r"\{(.*?) = (\S+?)(?: ([^ *]+?))?( \*)?\}")
@@ -215,6 +216,7 @@ VALUES = """
     five eighteen |  | 5 18 518
     zero fifty |  | 0 50
     ten fifty |  | 10 50
+    two ten metres | m | 2 10 210
     two sixty nine metres | m | 2 9 60 69 269
     two sixty metres | m | 2 60 260
     twenty-five six metres | m | 6 25
