@@ -169,14 +169,8 @@ def _make(
     for split, records in splits.items():
         if messages is None:
             break
-        chats = [(record["id"], messages(level, record, vocabulary)) for record in records]
-        texts[f"chat/{split}.jsonl"] = _lines(
-            # For other trainers: all messages, and the answer apart from what comes before it.
-            compact_json(
-                {"id": id_, "messages": chat, "prompt": chat[:-1], "completion": chat[-1:]}
-            )
-            for id_, chat in chats
-        )
+        chats = ((record["id"], messages(level, record, vocabulary)) for record in records)
+        texts[f"chat/{split}.jsonl"] = _lines(itertools.starmap(_chat, chats))
     timed("card and serialisation")
     starts = zip(stages, itertools.pairwise(times), strict=True)
     result.seconds = {stage: end - start for stage, (start, end) in starts}
@@ -196,6 +190,11 @@ def _make(
         files = {split: source / f"{split}.jsonl" for split in splits}
     manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=files)
     return result, DataFolder(result.folder, texts, manifest, source)
+
+
+def _chat(id_: str, chat: list[dict[str, str]]) -> str:
+    """For other trainers: all messages, and the answer apart from what comes before it."""
+    return compact_json({"id": id_, "messages": chat, "prompt": chat[:-1], "completion": chat[-1:]})
 
 
 def _sampled(

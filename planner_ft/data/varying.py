@@ -17,7 +17,8 @@ from planner_ft.data.numbers import in_words
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.unfamiliar import replaced, with_unfamiliar_words
 from planner_ft.facts.geometry import tidy
-from planner_ft.facts.numbers import Number, read_numbers
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.together import Number
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import is_number, plan_problems
 

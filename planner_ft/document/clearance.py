@@ -102,7 +102,10 @@ class _Steps:
         if pattern not in ROUND or here is None or len(points) < max(count, 1):
             return steps, marks
         free = [not any(one.blocks(here, goal) for one in self.known) for goal in points]
-        if free[0] or not any(free) or read_bearings(self.task["task_prompt"]):
+        prompt = self.task["task_prompt"]
+        for one in self.known:  # "the north lighthouse" is a name
+            prompt = prompt.replace(one.name, "") if one.name else prompt
+        if free[0] or not any(free) or read_bearings(prompt):
             return steps, marks
         reached = [index for index in range(count) if free[index]]
         first = min(reached, key=lambda index: math.dist(here, points[index]))

@@ -3,7 +3,7 @@
 A structure is a place that command or operator name as a thing: what a search looks for, what a
 task goes round, what a task prompt names beside a position, a point of a chart, what a limit keeps
 the vehicle away from. A place of the water ("waypoint", bare coordinates), a berth and the middle
-of an area or a line that is gone over are none.
+of an area or a line that is gone over are none, but for a point of the chart that nobody names.
 """
 
 from __future__ import annotations
@@ -76,6 +76,9 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
             kept[at] = max(kept.get(at, 0.0), values["distance"])
             named[at] = values.get("object", "")
     last, excluded, stated = vocabulary.home, {vocabulary.home}, dict[Point, list[float]]()
+    told = " ".join([document["command"], *(task["task_prompt"] for task in document["tasks"])])
+    chart = document.get("structures", {}).items()
+    charted = {point_of(at) for name, at in chart if name.casefold() not in told.casefold()}
     for task in document["tasks"]:
         known, place = vocabulary.task.get(task["title"]), place_of(task, vocabulary)
         if known is not None and known.pattern in FACING and last != vocabulary.home:
@@ -83,7 +86,7 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
         last = place or last
         if known is None or place is None:
             continue
-        if known.docks or known.pattern in OVER:
+        if known.docks or (known.pattern in OVER and place not in charted):
             excluded.add(place)
         if known.pattern in ROUND:
             named.setdefault(place, "")
@@ -96,8 +99,7 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
             stated.setdefault(place, []).append(margin)
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         named.setdefault((beside.x, beside.y), words)
-    charted = {**document.get("structures", {})}, {**document.get("located", {})}
-    for name, position in (*charted[0].items(), *charted[1].items()):
+    for name, position in (*chart, *document.get("located", {}).items()):
         if is_thing(name, vocabulary):
             named[point_of(position)] = named.get(point_of(position)) or name
     return [

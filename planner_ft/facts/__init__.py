@@ -25,7 +25,6 @@ sentence asks for is in here: only what it states.
 
 from planner_ft.facts.inputs import Input as Input
 from planner_ft.facts.inputs import read_input as read_input
-from planner_ft.facts.numbers import Number as Number
 from planner_ft.facts.places import Geographic as Geographic
 from planner_ft.facts.places import Position as Position
 from planner_ft.facts.reading import SCORING as SCORING
@@ -36,6 +35,7 @@ from planner_ft.facts.reading import is_number as is_number
 from planner_ft.facts.reading import is_place as is_place
 from planner_ft.facts.reading import near as near
 from planner_ft.facts.reading import read as read
+from planner_ft.facts.together import Number as Number
 from planner_ft.facts.words import Span as Span
 from planner_ft.facts.words import corrections as corrections
 from planner_ft.facts.words import is_known as is_known

@@ -2,31 +2,35 @@
 
 from __future__ import annotations
 
-import bisect
 import functools
 import itertools
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 
 from planner_ft.facts.lists import DIGITS, FRACTIONS, SPOKEN, TIMES, UNITS, WORDS
 from planner_ft.facts.numerals import AND, NUMERALS, Row
+from planner_ft.facts.together import (
+    AS_BEFORE,
+    BARE,
+    BY,
+    REREAD,
+    WRITTEN,
+    Number,
+    sums,
+    with_shared_units,
+)
 from planner_ft.facts.units import base_of, named
 from planner_ft.facts.words import edit_distance, is_known
 
-WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
-"""How plainly: with unit, without, half of a pair, in another's unit, in another reading."""
 THOROUGH = 6000
 """Characters of a text whose misspelt words are put right; what follows is read as it stands."""
 CHOICES = range(2)
 """Words that a misspelt one can be, and that are tried."""
-FOOT, DAY = 0.3048, 86400
-NEIGHBOURS = 5
-"""Characters that "and" with its blanks takes between two parts of one value."""
+DAY = 86400
 MOST_TIMES = 5
 """Times that a number is as large as another one, at most, to be in its unit."""
 
-_BY = re.compile(r"\s?(?:by|x|×|\*)\s?", re.IGNORECASE)
 _TIME = re.compile(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])")
 _BETWEEN_TIMES = re.compile(r"\D{1,9}")
 _RARE = re.compile(
@@ -52,31 +56,6 @@ AXES = tuple("nsew")
 LONGEST_NAME = 24
 """Characters of a name before its last figures."""
 _THINGS = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
-
-
-@dataclass(frozen=True)
-class Number:
-    """A number of a text: `value` in `unit` (None where no unit is said), at `start` to `end`, sign
-    included; `said` before conversion, 0 for a sum, ends at `stop`. A lower `rank` is a plainer way
-    of saying it.
-
-    `counts`: it is no measure, but counts things, stands for a thing, or is a heading or a part.
-    """
-
-    value: float
-    rank: int
-    start: int
-    end: int
-    unit: str | None = None
-    said: float = 0.0
-    counts: bool = False
-    stop: int = 0
-    added: float = 0.0
-
-    @property
-    def factor(self) -> float:
-        """What one unit as it was said is in `unit`, beside what is `added`; 0 for a nought."""
-        return (self.value - self.added) / self.said if self.said else 0.0
 
 
 @functools.lru_cache(maxsize=4096)
@@ -117,7 +96,7 @@ def in_unit(text: str, unit: str | None) -> Iterator[Number]:
 def _in_base(text: str, unit: str | None) -> Iterator[Number]:
     """The numbers as values in a base unit."""
     numbers = read_all(text, letters=unit not in SPOKEN)
-    totals = list(_sums(numbers, unit))
+    totals = list(sums(numbers, unit))
     # "2 h 20 min" are no two hours.
     parts = [total for total, whole in totals if whole]
     for number in numbers:
@@ -152,7 +131,7 @@ def _plain(row: Row) -> tuple[Number, ...]:
     while index < len(row.tokens):
         number, index = next(_at(row, index), (None, index + 1))
         found += [number] if number else []
-    return tuple(_with_shared_units(row.text, found))
+    return tuple(with_shared_units(row.text, found))
 
 
 def _every(row: Row) -> list[Number]:
@@ -168,7 +147,7 @@ def _every(row: Row) -> list[Number]:
         if row.bare_unit(index):
             options += _measured(row, index, index, 1.0)
         found += [number for number, _behind in options]
-    return _with_shared_units(row.text, found)
+    return with_shared_units(row.text, found)
 
 
 def read_times(text: str) -> Iterator[Number]:
@@ -322,67 +301,18 @@ def _is_thing(word: str) -> bool:
     return not any(edit_distance(word, unit, 2) <= 2 for unit in UNITS)
 
 
-# ---------------------------------------------------------------- what numbers say together
-
-
-def _with_shared_units(text: str, numbers: list[Number]) -> list[Number]:
-    """The numbers; "200 by 120 feet" and "100x60x20 m" have the unit of all behind the last."""
-    lengths = {number.start: number for number in numbers if number.unit == "m" and number.factor}
-    shared = list(numbers)
-    for place in sorted(range(len(numbers)), key=lambda place: -numbers[place].start):
-        one = numbers[place]
-        by = _BY.match(text, one.end) if one.unit is None else None
-        if by and (two := lengths.get(by.end())):
-            made = replace(one, value=one.said * two.factor, unit="m", counts=False)
-            shared[place] = lengths[made.start] = made
-    return shared
+# ---------------------------------------------------------------- rows of numbers
 
 
 def rows_of_sizes(text: str) -> list[list[Number]]:
     """The numbers that are said together: "50 by 60 m", "100x60x20"."""
     rows = list[list[Number]]()
     for number in read_numbers(text):
-        if rows and _BY.fullmatch(text, rows[-1][-1].end, number.start):
+        if rows and BY.fullmatch(text, rows[-1][-1].end, number.start):
             rows[-1].append(number)
         else:
             rows.append([number])
     return [row for row in rows if len(row) > 1]
-
-
-def neighbours(numbers: Iterable[Number], unit: str | None) -> list[Number]:
-    """The values that neighbouring numbers are together: "two minutes and thirty seconds"."""
-    return [total for total, _whole in _sums(numbers, unit)]
-
-
-def _sums(numbers: Iterable[Number], unit: str | None) -> Iterator[tuple[Number, bool]]:
-    """Neighbours that are one value ("5 minutes 30"), and whether their parts are none."""
-    for first, second in pairs(numbers, NEIGHBOURS) if unit in ("s", "m") else ():
-        gap, value = second.start - first.end, 0.0
-        if first.unit != unit or gap < 0 or not first.said:
-            continue
-        if unit == "s" and second.unit == "s":
-            value = first.value + second.value
-        elif unit == "s" and second.unit is None and gap <= 1:
-            value = first.value + second.value * first.factor / 60
-        elif unit == "m" and abs(first.factor - FOOT) < 1e-6 and 0 < second.said < 12:
-            inches = second.unit is None or abs(second.factor - FOOT / 12) < 1e-6
-            value = first.value + second.said * FOOT / 12 if inches else 0.0
-        if value:
-            joined = unit == second.unit == "s" and gap <= 1 and first.said > 0 and second.said > 0
-            whole = joined and first.factor > second.factor and second.value < first.factor
-            rank = max(first.rank, second.rank) // REREAD * REREAD
-            yield Number(value, rank, first.start, second.end, unit), whole
-
-
-def pairs(numbers: Iterable[Number], most: int) -> Iterator[tuple[Number, Number]]:
-    """Numbers with those that begin behind them, at most this many characters on."""
-    known = sorted(numbers, key=lambda number: number.start)
-    for first in known:
-        begin = bisect.bisect_left(known, first.stop, key=lambda number: number.start)
-        for second in itertools.islice(known, begin, None):
-            if second.start > first.end + most:
-                break
-            yield first, second
 
 
 def _as_before(row: Row, unit: str | None) -> Iterator[Number]:

@@ -15,7 +15,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from planner_ft.facts.lists import COMPASS, SHORT, TURNS, UNITS
-from planner_ft.facts.numbers import REREAD, WRITTEN, Number, pairs, read_numbers, read_rows
+from planner_ft.facts.numbers import read_numbers, read_rows
+from planner_ft.facts.together import REREAD, WRITTEN, Number, pairs
 
 DIGITS_OF_DEGREES = 4
 """Decimals from which a bare number is rather degrees than metres."""
@@ -33,13 +34,15 @@ _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
     r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?"
-    r"(?:(?P<whole>\d{2,3})(?P<packed>[0-5]\d\.\d+)(?=\s?,?\s?[NSEW]\b)"
+    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d\.\d+)(?=\s?,?\s?[NSEW]\b)"
     r"|(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d))"
     r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
     r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"
     r"(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?"
 )
-"""`whole` and `packed` are degrees and minutes as receivers send them (NMEA): 4807.038,N."""
+"""`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N) or as they are
+spoken of without signs: "48 07.038 N", "48-07.0N".
+"""
 _BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 _WRITTEN_PAIR = re.compile(
     rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)"

@@ -11,8 +11,9 @@ from typing import Any, Literal
 
 from planner_ft.facts import numbers, places
 from planner_ft.facts.lists import SCALES, SMALL, UNITS, WORDS
-from planner_ft.facts.numbers import AS_BEFORE, BARE, IN_PAIR, REREAD, THOROUGH, Number
+from planner_ft.facts.numbers import THOROUGH
 from planner_ft.facts.places import Geographic, Position
+from planner_ft.facts.together import AS_BEFORE, BARE, IN_PAIR, REREAD, Number
 from planner_ft.facts.units import base_of, named
 from planner_ft.facts.words import Phrases, Span, is_known, phrases
 from planner_ft.vocabulary import Parameter

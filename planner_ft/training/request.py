@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -122,13 +122,7 @@ def build_request(
         f"{path}: {key} = {given[key]!r}: must be text" for key in given if key not in texts
     ]
     named = {**texts, **{key: value for key, value in run.items() if value is not None}}
-    if overwrite and resume:
-        problems.append("--overwrite and --resume exclude each other")
-    if named.get("data_dir") and named.get("train_file"):
-        problems.append("--data-dir and --train-file exclude each other")
-    if named.get("validation_file") and not named.get("train_file"):
-        both = "with --data-dir both files come from the folder"
-        problems.append(f"--validation-file needs --train-file; {both}")
+    problems += _clashes(named, overwrite=overwrite, resume=resume)
     level = attempt(check_level, named.get("level"), "--level is missing: mission or task")
     names = "a name that `plannerft candidates` lists, a folder or a hub id"
     missing = f"--candidate is missing: {names}"
@@ -155,6 +149,17 @@ def build_request(
     return TrainRequest(
         level, candidate, vocabulary, *paths, resolved, *again, corrections, ranks.world
     )
+
+
+def _clashes(named: dict[str, Any], *, overwrite: bool, resume: bool) -> Iterator[str]:
+    """Flags that exclude or need each other."""
+    if overwrite and resume:
+        yield "--overwrite and --resume exclude each other"
+    if named.get("data_dir") and named.get("train_file"):
+        yield "--data-dir and --train-file exclude each other"
+    if named.get("validation_file") and not named.get("train_file"):
+        both = "with --data-dir both files come from the folder"
+        yield f"--validation-file needs --train-file; {both}"
 
 
 def launch_problems(ranks: Ranks, settings: TrainSettings) -> list[str]:

@@ -119,9 +119,14 @@ def test_berths_and_areas_that_are_gone_over_are_no_structures() -> None:
     )
     size = {"center": [50, 30], "width": 20, "length": 20, "spacing": 20}
     grid = task("BathymetryGridSurvey", size, [go(40, 20), go(40, 40), go(60, 40), go(60, 20)])
-    plan = document([grid, berth], chart={"wreck": (50.0, 30.0)})
+    chart = {"wreck": (50.0, 30.0)}
+    plan = document([grid, berth], command="Map the wreck, then dock.", chart=chart)
     assert structures(plan, USV) == []
     assert waypoints(plan)[-1] == [5, 5]
+    # What nobody names is no thing that is gone over on purpose.
+    plan = document([grid, berth], command="Map the depths, then dock.", chart=chart)
+    assert [one.name for one in structures(plan, USV)] == ["wreck"]
+    assert nearest(plan, [50, 30]) >= 9 or "structure-close" in kinds(plan)
 
 
 @pytest.mark.parametrize(("head", "kept"), [((40.0, 42.0), True), ((-8.0, 4.0), False)])
@@ -143,6 +148,8 @@ def test_a_ring_is_begun_on_the_near_side_unless_a_side_is_named() -> None:
     )
     plan = document([survey])
     assert waypoints(plan)[0] == [40, 20] and len(waypoints(plan)) == 8
+    survey["task_prompt"] = "Inspect the north mast at [50, 30]."
+    assert waypoints(document([survey]))[0] == [40, 20]
     survey["task_prompt"] = "Inspect it from the east."
     plan = document([survey])
     assert len(waypoints(plan)) > 8 and waypoints(plan)[-8] == [60, 30]

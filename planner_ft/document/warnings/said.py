@@ -17,8 +17,9 @@ from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings.case import LONGER, Case, same_place
 from planner_ft.document.warnings.kinds import Warning, quoted, warning
 from planner_ft.facts import Number, is_place, near
-from planner_ft.facts.numbers import neighbours, read_times, rows_of_sizes
+from planner_ft.facts.numbers import read_times, rows_of_sizes
 from planner_ft.facts.places import lone_coordinates
+from planner_ft.facts.together import neighbours
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Vocabulary
 
@@ -116,9 +117,12 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
             continue
         before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
         bare = _parameters(case.vocabulary).search(before) or SIZES.search(before)
-        instead = clause and case.words["replaced"].match(clause.text.strip(" ,"))
+        replacing = case.words["replaced"]
+        instead = clause and replacing.match(clause.text.strip(" ,"))
+        ends = (match.end() for match in replacing.finditer(before))
+        behind = len(before.rstrip()) in ends
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
-        if (bare or instead) and not known:
+        if (bare or instead or behind) and not known:
             yield lost(case.text[number.start : number.end])
 
 

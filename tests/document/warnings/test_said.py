@@ -96,6 +96,12 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Map 50x20 m at 9,9, no, 20 by 50 m, 10 m lines.", [grid(20, 50)], (), None),
         ("Circle the mast at 60,60, radius 20.", [orbit(360)], (), None),
         ("Circle it at 20 m. Actually 5 is enough.", [orbit(360)], (), "value-lost"),
+        (
+            "Circle it at 20 m, no, her anchors are out, better make it 50.",
+            [orbit(360)],
+            (),
+            "value-lost",
+        ),
         ("Circle it at 9 m, then home. Actually 20 will do.", [orbit(360), to(0, 0)], (), None),
         ("Circle it at 9 m, then home.", [orbit(360), to(0, 0)], (), "value-lost"),
         ("Drift at 5,5. No drift after all.", [to(5, 5), drift()], (), "contradiction"),
