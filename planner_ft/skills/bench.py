@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -13,13 +14,13 @@ import torch
 from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, wilson
 from planner_ft.skills.episodes import Actor, Episode, play
 from planner_ft.skills.followers import Follower, Guidance, Oracle
-from planner_ft.skills.policies import SKILLS, Policy, digest, read_policy, torch_threads
+from planner_ft.skills.policies import MANIFEST, SKILLS, Policy, digest, read_policy, torch_threads
 from planner_ft.skills.shapes import HELD_OUT, PUBLISHED
 from planner_ft.skills.survey import Task
 from planner_ft.skills.tracking_bench import tracking_table
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import make_folder, write_json, write_text
+from planner_ft.support.files import compact_json, make_folder, read_json, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, csv_table, figure, markdown_table, row
 
@@ -39,7 +40,7 @@ CONDITIONS: dict[str, tuple[tuple[str, ...], Task]] = {
 CAPTION = (
     "Means over episodes with 95 % intervals (rates: Wilson; means: bootstrap over episodes). Success:"
     " a whole lap; stand-off: mean distance from the commanded one over all time steps, the"
-    " approach included. Published figures are of another simulator; what the study does not say"
+    " approach included. Seeds of one training are shown one by one and pooled. Published figures are of another simulator; what the study does not say"
     " was chosen."
 )
 
@@ -80,6 +81,7 @@ def bench_skill(request: SkillBench, report: Report) -> list[Table]:
             played: Any = {}
         else:
             played = _play_all(request, policies, report)
+            played |= pooled(policies[1:], played)
             tables = [class_table(played, request.seed), condition_table(played, request.seed)]
         if request.out:
             _write(request, folders, tables, played)
@@ -95,7 +97,7 @@ def _play_all(request: SkillBench, policies: Sequence[Policy], report: Report) -
     guidance: Any = Guidance(tracker)
     actors: dict[str, tuple[Callable[[], Actor], Any]] = {}
     for policy in policies:
-        name = "learnt, shipped" if policy is policies[0] else f"learnt, {policy.path.parent}"
+        name = "learnt, shipped" if policy is policies[0] else _name(policy)
         actors[name] = (lambda one=policy: _actor(one), tracker)  # type: ignore[misc]
     actors["contour follower"] = (Follower, tracker)
     actors["contour follower, guidance and PID"] = (Follower, guidance)
@@ -111,6 +113,29 @@ def _play_all(request: SkillBench, policies: Sequence[Policy], report: Report) -
             done += 1
     report("survey bench", total, total)
     return played
+
+
+def _name(policy: Policy) -> str:
+    return f"learnt, {policy.path.parent}"
+
+
+def pooled(policies: Sequence[Policy], played: Played) -> Played:
+    """The episodes of policies that were trained alike but for the seed, together."""
+    alike: dict[str, list[Policy]] = {}
+    for policy in policies:
+        manifest = read_json(policy.path.parent / MANIFEST)
+        settings = {**manifest["configuration"], "seed": None}
+        alike.setdefault(compact_json(settings), []).append(policy)
+    found: Played = {}
+    for text, several in alike.items():
+        settings = json.loads(text)
+        told = [settings[key] for key in ("recipe", "sampling") if settings.get(key)]
+        told += [f"without {term}"] if (term := settings.get("without")) else []
+        if len(several) > 1:
+            name = f"learnt, {', '.join(told)}, {len(several)} seeds"
+            parts = [played[_name(one)] for one in several]
+            found[name] = {kind: [one for own in parts for one in own[kind]] for kind in parts[0]}
+    return found
 
 
 def _actor(policy: Policy) -> Actor:

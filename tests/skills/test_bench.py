@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from torch import nn
 
 from planner_ft.skills import bench
 from planner_ft.skills.bench import (
@@ -13,9 +14,12 @@ from planner_ft.skills.bench import (
     bench_skill,
     class_table,
     condition_table,
+    pooled,
 )
 from planner_ft.skills.episodes import Episode
+from planner_ft.skills.policies import Policy
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import write_json
 from planner_ft.support.tables import markdown_table
 
 
@@ -40,6 +44,19 @@ def test_rows_are_shares_and_means_of_episodes() -> None:
     assert ours[0].cells[3].text == "0.50" and ours[0].cells[4].text == "100"
     by_condition = condition_table(played, 0)
     assert sum(one.kind == "section" for one in by_condition.rows) == len(CONDITIONS) == 6
+
+
+def test_seeds_of_one_training_are_pooled(tmp_path: Path) -> None:
+    policies, played = [], {}
+    for number, (seed, without) in enumerate([(0, None), (1, None), (0, "progress")]):
+        configuration = {"recipe": "published", "sampling": "l3", "without": without, "seed": seed}
+        write_json(tmp_path / str(number) / "manifest.json", {"configuration": configuration})
+        where = tmp_path / str(number) / "policy.safetensors"
+        policies.append(Policy("survey", "published", nn.Identity(), {}, where))
+        played[f"learnt, {where.parent}"] = {"calm": episodes(number), "current": episodes(0)}
+    found = pooled(policies, played)
+    assert list(found) == ["learnt, published, l3, 2 seeds"]
+    assert found["learnt, published, l3, 2 seeds"]["calm"] == [*episodes(0), *episodes(1)]
 
 
 def test_published_figures_stand_beside() -> None:
