@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from multiprocessing.pool import ThreadPool
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner_ft.benchmark.settings import CHAT, ROOT, EndpointSettings
@@ -97,28 +97,37 @@ class ChatClient:
         can end while a server hangs.
         """
 
-        def work(pair: tuple[int, Item]) -> tuple[int, Result] | BaseException | None:
-            if self.stopped.is_set():
-                return None
-            try:
-                return pair[0], function(pair[1])
-            except BaseException as error:
-                self.stop()
-                return error
+        todo, lock = iter(enumerate(items)), threading.Lock()
+        came = SimpleQueue[tuple[int, Result] | BaseException | None]()
 
-        failures = list[BaseException]()
-        pool = ThreadPool(self.settings.concurrency)
+        def work() -> None:
+            while not self.stopped.is_set():
+                with lock:
+                    at, item = next(todo, (-1, None))
+                if at < 0:
+                    break
+                try:
+                    came.put((at, function(item)))  # type: ignore[arg-type]
+                except BaseException as error:
+                    self.stop()
+                    came.put(error)
+            came.put(None)
+
+        failures, working = list[BaseException](), min(self.settings.concurrency, len(items))
         try:
-            for found in pool.imap_unordered(work, enumerate(items)):
+            for _thread in range(working):
+                threading.Thread(target=work, daemon=True).start()
+            while working:
+                found = came.get()
                 if isinstance(found, BaseException):
                     failures.append(found)
                 elif found is not None:
                     yield found
+                else:
+                    working -= 1
         except BaseException:
             self.stop()
             raise
-        finally:
-            pool.terminate()
         if failures:
             raise failures[0]
 
