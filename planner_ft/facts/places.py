@@ -34,7 +34,7 @@ _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
     r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?"
-    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d\.\d+)(?=\s?,?\s?[NSEW]\b)"
+    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d\.\d+)(?=[\s,]?[NSEW]\b)"
     r"|(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d))"
     r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
     r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"

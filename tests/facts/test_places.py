@@ -336,6 +336,8 @@ def test_degrees_with_minutes_and_seconds_are_read_whole() -> None:
         ("stay west of longitude 10.14", ["longitude 10.14"]),
         ("go to 54.3217 N, 10.1412 E", []),
         ("go to 1234.5 then 500 m north", []),
+        ("go to 4807.038 , N", []),
+        ("stay north of 4807.038,N", ["4807.038,N"]),
         ("go to 40E, 25N", []),
     ],
 )
