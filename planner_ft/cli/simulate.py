@@ -83,6 +83,7 @@ def _place(text: str) -> tuple[float, float]:
 
 
 TRAINING = ("recipe", "seed", "sampling", "without", "goto", "resume", "overwrite")
+USUAL = {"recipe": "ours", "sampling": "uniform"}
 BENCH = ("goto", "episodes", "seed", "out", "overwrite")
 
 
@@ -98,8 +99,18 @@ def skill(o: Options) -> None:
 
 
 def _train(o: Options) -> None:
-    from planner_ft.skills.training import SkillTraining, train_skill
+    from planner_ft.skills.training import SkillTraining, train_all, train_skill
 
+    if o.name == "all":
+        root = o.out or Path("skills")
+        own = o.given("without", "goto", "iterations", "environments")
+        own |= {name: None for name, usual in USUAL.items() if o.take(name)[name] != usual}
+        if own:
+            raise PlannerError(f"--{next(iter(own))}: is of one skill; name it instead of all")
+        with interruptible(lambda: f"continue with: {resume_command()}") as report:
+            train_all(root, report, **o.take("seed", "resume", "overwrite"))
+        show(f"{root}: a folder for each skill, with policy.safetensors, card, manifest and log")
+        return
     folder, changes = o.out or Path("skills") / o.name, o.given("iterations", "environments")
     request = SkillTraining(o.name, folder, changes=changes, **o.take(*TRAINING))
     with interruptible(lambda: f"continue with: {resume_command()}") as report:

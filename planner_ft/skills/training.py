@@ -109,6 +109,29 @@ def train_skill(request: SkillTraining, report: Report) -> dict[str, Any]:
     return result
 
 
+def train_all(root: Path, report: Report, *, seed: int, resume: bool, overwrite: bool) -> None:
+    """Train every skill that ships from nothing, the survey on the new goto, each into its folder
+    of `root`. With `resume`, what is done stays. Raises PlannerError.
+    """
+    from planner_ft.skills.checkpoint import STATE
+
+    requests = [
+        SkillTraining(
+            *(name, root / name),
+            seed=seed,
+            goto=root / "goto" if name == "survey" else None,
+            resume=resume and (root / name / STATE).exists(),
+            overwrite=overwrite,
+        )
+        for name in SKILLS
+    ]
+    for request in requests:
+        if not (resume and (request.out / WEIGHTS).exists()):
+            train_skill(
+                request, lambda text, *done, own=request: report(f"{own.skill}: {text}", *done)
+            )
+
+
 def _train(request: SkillTraining, settings: Any, report: Report) -> dict[str, Any]:
     where = request.out, request.resume, report
     if request.skill != "survey":

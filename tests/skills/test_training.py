@@ -12,7 +12,7 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
-from planner_ft.skills import checkpoint, imitation, tracking
+from planner_ft.skills import checkpoint, imitation, tracking, training
 from planner_ft.skills.training import SkillTraining, train_skill
 from planner_ft.support.errors import PlannerError
 
@@ -71,6 +71,36 @@ def test_a_killed_training_goes_on_with_the_same_losses(
     assert len(whole) == 4 and losses(tmp_path / "cut") == whole
     first, second = (load_file(tmp_path / one / "policy.safetensors") for one in ("whole", "cut"))
     assert first and all(torch.equal(value, second[name]) for name, value in first.items())
+
+
+def test_all_skills_are_trained_and_what_is_done_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[SkillTraining] = []
+
+    def train(one: SkillTraining, report: Any) -> None:
+        begun.append(one)
+        report("training", 1, 2)
+        one.out.mkdir(exist_ok=True)
+        (one.out / "checkpoint.pt").touch()
+        if len(begun) == 2:
+            raise Killed
+        (one.out / "policy.safetensors").touch()
+
+    said: list[str] = []
+    monkeypatch.setattr(training, "train_skill", train)
+    settings: dict[str, Any] = {"seed": 3, "overwrite": False}
+    with pytest.raises(Killed):
+        training.train_all(
+            tmp_path, lambda text, _done, _of: said.append(text), resume=False, **settings
+        )
+    training.train_all(
+        tmp_path, lambda text, _done, _of: said.append(text), resume=True, **settings
+    )
+    assert [one.skill for one in begun] == ["goto", "hold", "hold", "survey"]
+    assert begun[-1].goto == tmp_path / "goto" and {one.seed for one in begun} == {3}
+    assert said[0] == "goto: training"
+    assert [one.resume for one in begun] == [False, False, True, False]
 
 
 def test_tracking_learns(tmp_path: Path) -> None:
