@@ -124,10 +124,9 @@ def theirs(
     padding_free: bool,
 ) -> Program:
     """SFTTrainer on the same samples in the same order."""
-    import torch
     from datasets import Dataset
     from transformers import TrainerCallback
-    from trl import SFTConfig, SFTTrainer
+    from trl import SFTTrainer
 
     order = ordered(samples, settings)
     rows = [{"input_ids": sample.rendered.input_ids, "labels": labels(sample)} for sample in order]
@@ -144,29 +143,7 @@ def theirs(
     def run() -> tuple[float, list[float]]:
         side.reset()
         seen = Losses()
-        arguments = SFTConfig(
-            output_dir=tempfile.mkdtemp(dir=folder),
-            max_steps=settings.max_steps or 0,
-            per_device_train_batch_size=settings.batch_size,
-            learning_rate=settings.learning_rate,
-            lr_scheduler_type="constant",
-            max_grad_norm=settings.gradient_clip,
-            weight_decay=0.0,
-            optim="adamw_torch",
-            bf16=compute_dtype(resolve_device("cpu")) == torch.bfloat16,
-            gradient_checkpointing=False,
-            logging_steps=1,
-            report_to="none",
-            save_strategy="no",
-            use_cpu=True,
-            dataloader_pin_memory=False,
-            max_length=None,
-            train_sampling_strategy="sequential",
-            disable_tqdm=True,
-            padding_free=padding_free,
-            dataset_kwargs={"skip_prepare_dataset": True},
-            seed=0,
-        )
+        arguments = trl_settings(settings, folder, padding_free=padding_free)
         trainer = SFTTrainer(
             model=side.model,
             args=arguments,
@@ -178,6 +155,36 @@ def theirs(
         return sum(sample.length for sample in order), seen.losses
 
     return run
+
+
+def trl_settings(settings: TrainSettings, folder: Path, *, padding_free: bool) -> Any:
+    """The SFTConfig of our settings."""
+    import torch
+    from trl import SFTConfig
+
+    return SFTConfig(
+        output_dir=tempfile.mkdtemp(dir=folder),
+        max_steps=settings.max_steps or 0,
+        per_device_train_batch_size=settings.batch_size,
+        learning_rate=settings.learning_rate,
+        lr_scheduler_type="constant",
+        max_grad_norm=settings.gradient_clip,
+        weight_decay=0.0,
+        optim="adamw_torch",
+        bf16=compute_dtype(resolve_device("cpu")) == torch.bfloat16,
+        gradient_checkpointing=False,
+        logging_steps=1,
+        report_to="none",
+        save_strategy="no",
+        use_cpu=True,
+        dataloader_pin_memory=False,
+        max_length=None,
+        train_sampling_strategy="sequential",
+        disable_tqdm=True,
+        padding_free=padding_free,
+        dataset_kwargs={"skip_prepare_dataset": True},
+        seed=0,
+    )
 
 
 def labels(sample: Sample) -> list[int]:

@@ -174,22 +174,31 @@ def _make(
     timed("card and serialisation")
     starts = zip(stages, itertools.pairwise(times), strict=True)
     result.seconds = {stage: end - start for stage, (start, end) in starts}
-    configuration: dict[str, Any] = {
-        "level": level,
-        "counts": result.counts,
-        "vocabulary": vocabulary.name,
-        "vocabulary_sha256": vocabulary.sha256,
-        "chat": messages is not None,
-    }
-    if name == "task":
-        configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
-    elif name == SYNTHETIC:
-        configuration["synthetic"] = settings.synthetic
+    chat = messages is not None
+    configuration = _configuration(name, result, settings, vocabulary, chat=chat)
     files: dict[str, Path | str] = {}
     if source:
         files = {split: source / f"{split}.jsonl" for split in splits}
     manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=files)
     return result, DataFolder(result.folder, texts, manifest, source)
+
+
+def _configuration(
+    name: str, made: Generated, settings: GenerationSettings, vocabulary: Vocabulary, *, chat: bool
+) -> dict[str, Any]:
+    """What the manifest of a set says about how it was made."""
+    configuration: dict[str, Any] = {
+        "level": made.level,
+        "counts": made.counts,
+        "vocabulary": vocabulary.name,
+        "vocabulary_sha256": vocabulary.sha256,
+        "chat": chat,
+    }
+    if name == "task":
+        configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
+    elif name == SYNTHETIC:
+        configuration["synthetic"] = settings.synthetic
+    return configuration
 
 
 def _chat(id_: str, chat: list[dict[str, str]]) -> str:

@@ -40,8 +40,8 @@ CONDITIONS: dict[str, tuple[tuple[str, ...], Task]] = {
 CAPTION = (
     "Means over episodes with 95 % intervals (rates: Wilson; means: bootstrap over episodes). Success:"
     " a whole lap; stand-off: mean distance from the commanded one over all time steps, the"
-    " approach included. Seeds of one training are shown one by one and pooled. Published figures are of another simulator; what the study does not say"
-    " was chosen."
+    " approach included. Seeds of one training are shown one by one and pooled. Published figures"
+    " are of another simulator; what the study does not say was chosen."
 )
 
 
@@ -121,19 +121,21 @@ def _name(policy: Policy) -> str:
 
 def pooled(policies: Sequence[Policy], played: Played) -> Played:
     """The episodes of policies that were trained alike but for the seed, together."""
-    alike: dict[str, list[Policy]] = {}
+    alike: dict[str, dict[int, str]] = {}
     for policy in policies:
-        manifest = read_json(policy.path.parent / MANIFEST)
-        settings = {**manifest["configuration"], "seed": None}
-        alike.setdefault(compact_json(settings), []).append(policy)
+        manifest = policy.path.parent / MANIFEST
+        settings = read_json(manifest)["configuration"] if manifest.is_file() else {}
+        if "seed" in settings:
+            seed = settings.pop("seed")
+            alike.setdefault(compact_json(settings), {})[seed] = _name(policy)
     found: Played = {}
-    for text, several in alike.items():
+    for text, by_seed in alike.items():
         settings = json.loads(text)
-        told = [settings[key] for key in ("recipe", "sampling") if settings.get(key)]
-        told += [f"without {term}"] if (term := settings.get("without")) else []
-        if len(several) > 1:
-            name = f"learnt, {', '.join(told)}, {len(several)} seeds"
-            parts = [played[_name(one)] for one in several]
+        words = [settings[key] for key in ("recipe", "sampling") if settings.get(key)]
+        words += [f"without {term}"] if (term := settings.get("without")) else []
+        parts = [played[name] for name in by_seed.values()]
+        if len(parts) > 1:
+            name = f"learnt, {', '.join(words)}, {len(parts)} seeds"
             found[name] = {kind: [one for own in parts for one in own[kind]] for kind in parts[0]}
     return found
 

@@ -111,25 +111,18 @@ def train_skill(request: SkillTraining, report: Report) -> dict[str, Any]:
 
 def train_all(root: Path, report: Report, *, seed: int, resume: bool, overwrite: bool) -> None:
     """Train every skill that ships from nothing, the survey on the new goto, each into its folder
-    of `root`. With `resume`, what is done stays. Raises PlannerError.
+    of `root`. With `resume`, finished ones stay. Raises PlannerError.
     """
-    from planner_ft.skills.checkpoint import STATE
+    how: dict[str, Any] = {"seed": seed, "resume": resume, "overwrite": overwrite}
+    goto = {"survey": root / "goto"}
+    for request in [SkillTraining(s, root / s, goto=goto.get(s), **how) for s in SKILLS]:
+        if resume and (request.out / WEIGHTS).exists():
+            continue
 
-    requests = [
-        SkillTraining(
-            *(name, root / name),
-            seed=seed,
-            goto=root / "goto" if name == "survey" else None,
-            resume=resume and (root / name / STATE).exists(),
-            overwrite=overwrite,
-        )
-        for name in SKILLS
-    ]
-    for request in requests:
-        if not (resume and (request.out / WEIGHTS).exists()):
-            train_skill(
-                request, lambda text, *done, own=request: report(f"{own.skill}: {text}", *done)
-            )
+        def named(label: str, done: int, total: int, skill: str = request.skill) -> None:
+            report(f"{skill}: {label}", done, total)
+
+        train_skill(request, named)
 
 
 def _train(request: SkillTraining, settings: Any, report: Report) -> dict[str, Any]:

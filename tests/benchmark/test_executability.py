@@ -12,12 +12,10 @@ from planner_ft.benchmark.metrics.failures import executable
 from planner_ft.data.missions import sample_missions
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.replay import Stop, replay
+from tests.missions import OPEN, REPORT, STARE, Task, find, go, send
 
 USV = load_vocabulary()
 DATA = Path(__file__).parents[2] / "data" / "mission"
-OPEN = [-99, -99]
-
-Task = tuple[str, dict[str, Any]]
 
 
 def plan(*tasks: Task) -> dict[str, Any]:
@@ -33,22 +31,6 @@ def plan(*tasks: Task) -> dict[str, Any]:
 
 def without(whole: dict[str, Any], title: str) -> dict[str, Any]:
     return {**whole, "tasks": [task for task in whole["tasks"] if task["title"] != title]}
-
-
-def go(*place: float) -> Task:
-    return "Transit", {"target_position": list(place)}
-
-
-def find(what: str) -> Task:
-    return "SearchAndDetect", {"target_description": what}
-
-
-def send(*items: str) -> Task:
-    return "SmartDataHarvest", {"target_list": list(items)}
-
-
-STARE: Task = ("FeatureStare", {"feature_type": "lamp"})
-REPORT: Task = ("AutoGenerateReportSummary", {})
 
 
 @pytest.mark.parametrize("name", ["train", "validation", "test", "challenge"])

@@ -54,7 +54,10 @@ def test_seeds_of_one_training_are_pooled(tmp_path: Path) -> None:
         where = tmp_path / str(number) / "policy.safetensors"
         policies.append(Policy("survey", "published", nn.Identity(), {}, where))
         played[f"learnt, {where.parent}"] = {"calm": episodes(number), "current": episodes(0)}
-    found = pooled(policies, played)
+    bare = Policy(
+        "survey", "published", nn.Identity(), {}, tmp_path / "bare" / "policy.safetensors"
+    )
+    found = pooled([*policies, policies[0], bare], played)
     assert list(found) == ["learnt, published, l3, 2 seeds"]
     assert found["learnt, published, l3, 2 seeds"]["calm"] == [*episodes(0), *episodes(1)]
 

@@ -100,7 +100,9 @@ def test_all_skills_are_trained_and_what_is_done_stays(
     assert [one.skill for one in begun] == ["goto", "hold", "hold", "survey"]
     assert begun[-1].goto == tmp_path / "goto" and {one.seed for one in begun} == {3}
     assert said[0] == "goto: training"
-    assert [one.resume for one in begun] == [False, False, True, False]
+    assert [one.resume for one in begun] == [False, False, True, True]
+    with pytest.raises(PlannerError, match="exclude each other"):
+        training.train_all(tmp_path, quiet, seed=3, resume=True, overwrite=True)
 
 
 def test_tracking_learns(tmp_path: Path) -> None:

@@ -18,34 +18,18 @@ from planner_ft.vocabulary.replay import (
     stops,
     target,
 )
+from tests.missions import OPEN, REPORT, STARE, Task, find, go, send
 
 USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
-OPEN = [-99, -99]
-
-Task = tuple[str, dict[str, Any]]
 
 
 def plan(*tasks: Task) -> dict[str, Any]:
     return {"tasks": [{"title": title, "parameters": given} for title, given in tasks]}
 
 
-def go(*place: float) -> Task:
-    return "Transit", {"target_position": list(place)}
-
-
-def find(what: str) -> Task:
-    return "SearchAndDetect", {"target_description": what}
-
-
-def send(*items: str) -> Task:
-    return "SmartDataHarvest", {"target_list": list(items)}
-
-
-STARE: Task = ("FeatureStare", {"feature_type": "lamp"})
 ORBIT: Task = ("PerformOrbit", {"center": [10, 20], "radius": 15})
 GRID: Task = ("BathymetryGridSurvey", {"center": [10, 20]})
 DRIFT: Task = ("DriftAudit", {"duration": 60})
-REPORT: Task = ("AutoGenerateReportSummary", {})
 THERMAL: Task = ("ThermalTimeLapse", {"duration": 600})
 FOUND = (find("green buoy"), go(*OPEN), STARE, REPORT, go(0, 0))
 UNRESOLVED = "its place is unresolved and no SearchAndDetect comes before it"
