@@ -73,6 +73,7 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
         arguments.packs,
         emphasis=arguments.emphasis,
         subjects=tuple(arguments.subjects),
+        prompts=tuple(arguments.prompts),
     )
     drawn = (arguments.shard_samples, settings.longest, mixture)
     jobs = [
@@ -211,6 +212,7 @@ def parsed() -> argparse.Namespace:
     )
     add("--average-with", type=Path, help="model folder that --init-share is about, not --init")
     add("--subjects", nargs="*", default=[], help="subjects of command templates, for --emphasis")
+    add("--prompts", nargs="*", default=[], help="subjects of prompt templates, for --emphasis")
     for name, (default, text) in OPTIONS.items():
         kind = Path if isinstance(default, Path) else type(default)
         add(f"--{name}", type=kind, default=default, help=text)

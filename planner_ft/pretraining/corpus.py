@@ -81,7 +81,8 @@ class Mixture:
     vehicle whose target gets a name that the generators do not know, where it has a word that can
     be changed; `drills` come on top: sums alone, the beginnings of task answers, per sample; so do
     `packs`, groups of samples with the vocabulary in their prompt, `own` of them of our vehicle.
-    `emphasis` of our vehicle's missions are drawn from the templates of these `subjects` alone.
+    `emphasis` of our vehicle's missions are drawn from the templates of these `subjects` alone, and
+    of its sampled tasks from those of `prompts`.
     """
 
     missions: float = 0.6
@@ -93,6 +94,7 @@ class Mixture:
     own: float = 0.4
     emphasis: float = 0.0
     subjects: tuple[str, ...] = ()
+    prompts: tuple[str, ...] = ()
 
 
 def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Drawn]:
@@ -109,6 +111,7 @@ def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Draw
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     vehicles, emphasis = Random(f"{seed} vehicles"), Random(f"{seed} emphasis")
     stressed = missions_with_skills(seed + EMPHASIS_SEED, None, vocabulary, mixture.subjects)
+    stressed_tasks = sample_tasks(vocabulary, seed + EMPHASIS_SEED, None, "train", mixture.prompts)
     while True:
         level: Level = "mission" if draw.random() < mixture.missions else "task"
         if others and level == "mission" and vehicles.random() < mixture.vehicles:
@@ -118,6 +121,8 @@ def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Draw
         source = missions
         if level == "task":
             source = handed_down if draw.random() < HANDED_DOWN else tasks
+            if source is tasks and mixture.prompts and emphasis.random() < mixture.emphasis:
+                source = stressed_tasks
         elif emphasis.random() < mixture.emphasis:
             source = (record for record, _skills in stressed)
         record, changed = next(source), None

@@ -44,18 +44,23 @@ Draw = Callable[[], dict[str, Any] | None]
 
 
 def sample_tasks(
-    vocabulary: Vocabulary, seed: int, count: int | None, split: Split
+    vocabulary: Vocabulary,
+    seed: int,
+    count: int | None,
+    split: Split,
+    subjects: Sequence[str] = (),
 ) -> Iterator[dict[str, Any]]:
     """Yield `count` different records, or an endless stream when `count` is None; same seed, same
-    records.
+    records. With `subjects` they come from the whole-prompt templates of these subjects alone.
 
     Record: {"id", "family", "task", "parameters", "prompt", "expected"}, canonical and strictly
-    valid. Raises PlannerError for an unknown split, or when the vocabulary has not enough different
-    samples.
+    valid. Raises PlannerError for an unknown split, for subjects without a template, or when the
+    vocabulary has not enough different samples.
     """
     if split not in SPLITS:
         raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
-    draws = _Draws(vocabulary, random.Random(f"{vocabulary.name}:{seed}:{split}"), split)
+    rng = random.Random(f"{vocabulary.name}:{seed}:{split}")
+    draws = _Draws(vocabulary, rng, split, subjects)
     seen: set[int] = set()
     misses = 0
     for number in itertools.count() if count is None else range(count):
@@ -85,14 +90,26 @@ def split_of(text: str) -> Split:
 class _Draws:
     """Single draws for one split; None when one came to nothing or belongs to another split."""
 
-    def __init__(self, vocabulary: Vocabulary, rng: random.Random, split: Split) -> None:
+    def __init__(
+        self, vocabulary: Vocabulary, rng: random.Random, split: Split, subjects: Sequence[str]
+    ) -> None:
         self.unseen = split == "test_unseen"
         self.book, self.rng, self.split = phrasebook(vocabulary, unseen=self.unseen), rng, split
-        self.templates = [] if self.unseen else templates(vocabulary, "prompts", split)
+        self.templates = [
+            group
+            for group in ([] if self.unseen else templates(vocabulary, "prompts", split))
+            if not subjects or group[0].subject in subjects
+        ]
+        if subjects and not self.templates:
+            raise PlannerError(
+                f"vocabulary {vocabulary.name}: split {split} has no prompt templates of"
+                f" {', '.join(subjects)}; a subject is the name of a file of templates"
+            )
+        self.share = 1.0 if subjects else TEMPLATES
 
     def any(self) -> Draw:
         """Where the next sample comes from."""
-        whole = self.templates and self.rng.random() < TEMPLATES
+        whole = self.templates and self.rng.random() < self.share
         return self.from_template if whole else self.composed
 
     def from_template(self) -> dict[str, Any] | None:

@@ -207,3 +207,11 @@ def test_a_bad_phrase_is_named(tmp_path, phrase, message):
     (tmp_path / "rover.phrases.toml").write_text(f'[skill.FlyToXY]\nphrases = ["{phrase}"]\n')
     with pytest.raises(PlannerError, match=message):
         next(sample_tasks(load_vocabulary(str(tmp_path / "rover.toml")), 0, 1, "train"))
+
+
+def test_subjects_draw_from_their_templates_alone():
+    """Every record comes from a whole prompt; a subject that no file has is refused."""
+    drawn = sample_tasks(USV, 3, 20, "train", ["turns_and_legs"])
+    assert all(record["family"].startswith("template/") for record in drawn)
+    with pytest.raises(PlannerError, match="prompt templates of weather"):
+        next(sample_tasks(USV, 3, 1, "train", ["weather"]))
