@@ -44,11 +44,7 @@ Draw = Callable[[], dict[str, Any] | None]
 
 
 def sample_tasks(
-    vocabulary: Vocabulary,
-    seed: int,
-    count: int | None,
-    split: Split,
-    subjects: Sequence[str] = (),
+    vocabulary: Vocabulary, seed: int, count: int | None, split: Split, subjects: Sequence[str] = ()
 ) -> Iterator[dict[str, Any]]:
     """Yield `count` different records, or an endless stream when `count` is None; same seed, same
     records. With `subjects` they come from the whole-prompt templates of these subjects alone.
