@@ -12,29 +12,17 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.drawing import Drawing
-from planner_ft.data.mission_binding import IT, Bound, bound
+from planner_ft.data.mission_binding import IT, LIMIT, Bound, bound
 from planner_ft.data.mission_plan import Planned, Target
-from planner_ft.data.numbers import Value, knots
-from planner_ft.data.templates.grammar import Call, Slot, TemplateError, all_slots, base_of
+from planner_ft.data.templates.grammar import Slot, TemplateError, all_slots
 from planner_ft.data.templates.records import Template
-from planner_ft.facts.geometry import tidy
-from planner_ft.vocabulary import Parameter, Task
+from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence, slots
 
 if TYPE_CHECKING:
     from planner_ft.data.missions import MissionSampler
 
-_MEASURED = {"distance": "m", "range": "m", "speed": "m/s", "duration": "s"}
-_VALUES = (*(Parameter(name, "number", unit) for name, unit in _MEASURED.items()),)
-LIMIT = Task(
-    "Limit", "", "", "none", "", parameters=(*_VALUES, Parameter("polygon", "polygon", "m"))
-)
-"""What the values of limits are drawn for; [task.Limit] in NAME.missions.toml has their ranges."""
 SCOPES = ("mission", "task", "way", "home")
-SPOKEN_IN_KNOTS = 0.5
-"""Share of the limits of speed that are said in knots."""
-BOXED = 0.3
-"""Share of the boxes that are said by two of their corners."""
 Beside = tuple[str, str, dict[str, Any]]
 """A skill that runs in the steps of a task: role, name and parameters."""
 
@@ -65,13 +53,6 @@ class Clause(Drawing):
         elif self.it is not None:
             self.targets[IT] = self.it
 
-    def _new(self, key: str) -> Value:
-        value = super()._new(key)
-        if value.noun and base_of(key) == "polygon" and self.rng.random() < BOXED:
-            return Value(value.value, value.noun)
-        spoken = base_of(key) == "speed" and self.rng.random() < SPOKEN_IN_KNOTS
-        return knots(self.rng) if spoken else value
-
     def effect(
         self, planned: Sequence[Planned], covered: set[int], *, alone: bool
     ) -> Effect | None:
@@ -87,11 +68,11 @@ class Clause(Drawing):
         for call in (step.call for step in self.template.steps):
             if call.label and call.label not in self.labels:
                 continue
-            given = self._given(call)
+            given = self.given(call)
             if given.get("scope", "mission") != "mission" and not alone:
                 return None
             if call.name in limits:
-                fits = self._limit(call.name, given, planned, own, effect)
+                fits = limit(self.vocabulary, call.name, given, planned, own, effect)
             else:
                 fits = self._demand(call.name, given, planned, covered, effect)
             if not fits:
@@ -102,55 +83,6 @@ class Clause(Drawing):
             effect.constraints.append(text)
             effect.sentences += [(place, text, None) for place in places]
         return effect
-
-    def _given(self, call: Call) -> dict[str, Any]:
-        """The values of a call by name; a target gives object and position."""
-        found: dict[str, Any] = {}
-        for argument in call.arguments:
-            key, slot = str(argument.value), argument.kind == "slot"
-            if slot and (target := self.targets.get(key)):
-                found["object"] = target.identity or (target.description and target.name)
-                if target.position is not None:
-                    found["position"] = [tidy(number) for number in target.position]
-            elif slot and key in self.values:
-                value, name = self.values[key], argument.name or base_of(key)
-                found[name] = value.text if name == "time" else value.value
-            else:
-                literal = argument.value
-                found[argument.name] = tidy(literal) if isinstance(literal, float) else literal
-        return found
-
-    def _limit(
-        self,
-        kind: str,
-        given: dict[str, Any],
-        planned: Sequence[Planned],
-        own: Sequence[int],
-        effect: Effect,
-    ) -> bool:
-        """Whether a limit fits; if so, the effect has it. One of the tasks at the places `own`
-        alone names their titles, which no other task may have.
-        """
-        limits, places, titles = load_limits(self.vocabulary), moving(planned), list[str]()
-        if given.pop("scope", "mission") == "task":
-            titles = [planned[place].task.title for place in own]
-            others = (item for place, item in enumerate(planned) if place not in own)
-            if any(item.task.title in titles for item in others):
-                return False
-            places = [place for place in places if place in own]
-        if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
-            raise TemplateError(f"{kind} needs {' and '.join(slots(limits[kind].sentences[-1]))}")
-        effect.about.add(kind)
-        effect.constraints.append(sentence(kind, given, limits, titles))
-        text, rule = prompt_sentence(kind, given, limits), limits[kind]
-        values = {name: given[value] for name, value in rule.parameters.items()}
-        beside = ("filter", rule.filter, values) if rule.filter else None
-        if kind == "return":
-            places = [place for place in places if planned[place].intent.home]
-        elif kind == "duration" and not titles:
-            places = []
-        effect.sentences += [(place, text, beside) for place in places]
-        return True
 
     def _demand(
         self,
@@ -179,6 +111,39 @@ class Clause(Drawing):
         effect.about.add(name)
         effect.sentences += [(place, text, beside) for place in places]
         return bool(places)
+
+
+def limit(
+    vocabulary: Vocabulary,
+    kind: str,
+    given: dict[str, Any],
+    planned: Sequence[Planned],
+    own: Sequence[int],
+    effect: Effect,
+) -> bool:
+    """Whether a limit fits; if so, the effect has it. One of the tasks at the places `own`
+    alone names their titles, which no other task may have.
+    """
+    limits, places, titles = load_limits(vocabulary), moving(planned), list[str]()
+    if given.pop("scope", "mission") == "task":
+        titles = [planned[place].task.title for place in own]
+        others = (item for place, item in enumerate(planned) if place not in own)
+        if any(item.task.title in titles for item in others):
+            return False
+        places = [place for place in places if place in own]
+    if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
+        raise TemplateError(f"{kind} needs {' and '.join(slots(limits[kind].sentences[-1]))}")
+    effect.about.add(kind)
+    effect.constraints.append(sentence(kind, given, limits, titles))
+    text, rule = prompt_sentence(kind, given, limits), limits[kind]
+    values = {name: given[value] for name, value in rule.parameters.items()}
+    beside = ("filter", rule.filter, values) if rule.filter else None
+    if kind == "return":
+        places = [place for place in places if planned[place].intent.home]
+    elif kind == "duration" and not titles:
+        places = []
+    effect.sentences += [(place, text, beside) for place in places]
+    return True
 
 
 def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple[str, Beside]:

@@ -7,14 +7,31 @@ from dataclasses import replace
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
+from planner_ft.data.formulas import (
+    HOME,
+    WINDS,
+    directions,
+    is_formula,
+    operands,
+    opposite,
+    worked_out,
+)
+from planner_ft.data.mission_binding import CLAUSE, IT, LIMIT, OBJECTS, Bound, Line
 from planner_ft.data.mission_plan import Intent, Target, point_text
-from planner_ft.data.numbers import WRITTEN, Value, digits, pick, position
-from planner_ft.data.task.values import draw_point
-from planner_ft.data.templates.grammar import Chosen, Nodes, Slot, TemplateError, base_of, choose
+from planner_ft.data.numbers import WRITTEN, Value, bearing, digits, knots, pick, position
+from planner_ft.data.task.values import draw_number, draw_point
+from planner_ft.data.templates.grammar import (
+    Call,
+    Chosen,
+    Nodes,
+    Slot,
+    TemplateError,
+    base_of,
+    choose,
+)
 from planner_ft.data.templates.records import Template
 from planner_ft.data.templates.render import PIECE, article_for
-from planner_ft.facts.geometry import Point
+from planner_ft.facts.geometry import Point, point, tidy
 from planner_ft.vocabulary import Task
 
 if TYPE_CHECKING:
@@ -22,6 +39,10 @@ if TYPE_CHECKING:
 
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
+SPOKEN_IN_KNOTS, BOXED = 0.5, 0.3
+"""Shares of the limits of speed in knots, and of the boxes that two of their corners name."""
+SIDES = (20, 300)
+"""Metres between two opposite corners, each way."""
 DOUBTFUL, BARE, FITTING = 0.04, 0.5, 0.6
 """Shares of doubtful positions, bare sizes before another size, spacings that divide the width."""
 LANES = 12
@@ -55,11 +76,16 @@ class Drawing(Chosen):
         self.form = None if roll > 0.85 else WRITTEN[0] if roll < 0.3 else pick(WRITTEN, rng)
         super().__init__(template.nodes, rng)
         self.lines = [line for line in bound.lines if not line.label or line.label in self.labels]
+        self.corners = {other: (one, ways) for one, other, ways in opposite(template.plan)}
+        self.winds = directions(template.plan)
         self.slots.sort(key=lambda slot: slot.base != "P")
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:
                 self._draw(slot)
         self._agree()
+        for key in (key for line in self.lines for key in line.objects if is_formula(key)):
+            if operands(key) <= self.said:
+                self.targets[key] = Target(key, position=worked_out(key, self._worth))
 
     # ------------------------------------------------------------ what is spoken of
 
@@ -67,7 +93,8 @@ class Drawing(Chosen):
         key = slot.key
         if slot.base == "P":
             doubtful = any(line.near == key for line in self.lines)
-            self.targets[key] = Target(key, position=self._point(), doubtful=doubtful)
+            there = self._point(*self.corners.get(key, ()))
+            self.targets[key] = Target(key, position=there, doubtful=doubtful)
         elif slot.base == "T":
             self.targets[key] = self._target(slot)
         elif slot.base == "ID":
@@ -76,11 +103,22 @@ class Drawing(Chosen):
         elif slot.base != CLAUSE:
             self.values[key] = self._value(slot)
 
-    def _point(self) -> Point:
+    def _point(self, corner: str = "", ways: Sequence[tuple[int, int]] = ()) -> Point:
+        """A position; the one opposite a corner where that is given."""
         while True:
-            point = draw_point(self.rng)
-            if point not in (self.vocabulary.home, self.vocabulary.unresolved):
-                return point
+            place = draw_point(self.rng)
+            if corner in self.targets:
+                sides = (way * draw_number(self.rng, *SIDES) for way in pick(ways, self.rng))
+                start = self._place_of(corner)
+                place = point(*(one + side for one, side in zip(start, sides, strict=True)))
+            if place not in (self.vocabulary.home, self.vocabulary.unresolved):
+                return place
+
+    def _worth(self, key: str) -> Any:
+        """The position or the number of a slot."""
+        if key == HOME:
+            return self.vocabulary.home
+        return self._place_of(key) if key in self.targets else self.values[key].value
 
     def _place_of(self, key: str) -> Point:
         return self.targets[key].position or (0, 0)
@@ -162,7 +200,15 @@ class Drawing(Chosen):
         owner = self.bound.owners.get(key)
         if owner is None or owner[1].type in ("text", "texts", "id"):
             return self.words.noun(base_of(key), self.rng)
-        return self.sampler.value(*owner, self.rng)
+        if key in self.winds:
+            return bearing(pick(WINDS, self.rng), self.rng)
+        value = self.sampler.value(*owner, self.rng)
+        if owner[0] is LIMIT:
+            if value.noun and base_of(key) == "polygon" and self.rng.random() < BOXED:
+                return Value(value.value, value.noun)
+            if base_of(key) == "speed" and self.rng.random() < SPOKEN_IN_KNOTS:
+                return knots(self.rng)
+        return value
 
     def _agree(self) -> None:
         """A series of readings has room for two; mostly, lines fit the width of their grid."""
@@ -290,18 +336,23 @@ class Drawing(Chosen):
         if line.task is None:
             return Intent(self.vocabulary.task[self.vocabulary.transit], home=True)
         said = (key for key in line.objects if base_of(key) != "P" or key in self.said)
-        key = min(said, key=lambda one: OBJECTS.index(base_of(one)), default=None)
+        rank = {kind: place for place, kind in enumerate(OBJECTS)}
+        key = min(said, key=lambda one: rank.get(base_of(one), 0), default=None)
         if key and key not in self.targets:
             raise TemplateError(f"{line.task.title} needs {{{key}}}, which one alternative lacks")
         part = self._filled(line.part) if line.part else ""
         target = self.targets[key] if key else None
+        if line.spot:
+            target = Target(f"spot {line.spot}", line.spot, text=line.spot, spot=True)
         return Intent(line.task, target, self._parameters(line, line.task), part=part)
 
     def _parameters(self, line: Line, task: Task) -> dict[str, Any]:
         """The parameters that are said, in the order of the definition."""
         found: dict[str, Any] = {}
         for parameter, slot, value in line.fills:
-            if slot in self.targets:
+            if is_formula(slot):
+                value = worked_out(slot, self._worth) if operands(slot) <= self.said else None
+            elif slot in self.targets:
                 value = self.targets[slot].description
             elif slot in self.values and slot in self.said:
                 value = self.values[slot].value
@@ -310,6 +361,23 @@ class Drawing(Chosen):
             elif value is not None:
                 found.setdefault(parameter.name, value)
         return {name: found[name] for name in task.by_name if name in found}
+
+    def given(self, call: Call) -> dict[str, Any]:
+        """The values of a limit or demand by name; a target gives object and position."""
+        found: dict[str, Any] = {}
+        for argument in call.arguments:
+            key, slot = str(argument.value), argument.kind == "slot"
+            if slot and (target := self.targets.get(key)):
+                found["object"] = target.identity or (target.description and target.name)
+                if target.position is not None:
+                    found["position"] = [tidy(number) for number in target.position]
+            elif slot and key in self.values:
+                value, name = self.values[key], argument.name or base_of(key)
+                found[name] = value.text if name == "time" else value.value
+            else:
+                literal = argument.value
+                found[argument.name] = tidy(literal) if isinstance(literal, float) else literal
+        return found
 
     def _filled(self, nodes: Nodes) -> str:
         """A text of the plan with what its slots stand for."""

@@ -6,16 +6,24 @@ import itertools
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from planner_ft.data.formulas import is_formula, operands
 from planner_ft.data.templates import grammar
 from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, all_slots, base_of
 from planner_ft.data.templates.records import Template
 from planner_ft.data.wordlists import WordLists
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
+from planner_ft.vocabulary.limits import load_limits
 
 OBJECTS = ("ID", "T", "P")
 CLAUSE, IT = "C", "it"
 """Slots for a clause, and for the target that a clause takes up again."""
 HOME = "Home"
+_MEASURED = {"distance": "m", "range": "m", "speed": "m/s", "duration": "s"}
+_VALUES = (*(Parameter(name, "number", unit) for name, unit in _MEASURED.items()),)
+LIMIT = Task(
+    "Limit", "", "", "none", "", parameters=(*_VALUES, Parameter("polygon", "polygon", "m"))
+)
+"""What the values of limits are drawn for; [task.Limit] in NAME.missions.toml has their ranges."""
 Owners = dict[str, tuple[Task, Parameter]]
 """The parameter whose values a slot has."""
 
@@ -40,30 +48,36 @@ class Line(NamedTuple):
     here: bool = False
     near: str = ""
     part: Nodes = ()
+    spot: str = ""
 
     def slots(self) -> set[str]:
         """The slots of the text that the task needs."""
         parts = (slot.key for slot in all_slots(self.part))
         filled = (fill.slot for fill in self.fills)
-        return {self.near, *self.objects, *filled, *parts, *self.clauses} - {""}
+        named = {self.near, *self.objects, *filled, *parts, *self.clauses} - {""}
+        return set[str]().union(*map(operands, named))
 
 
 class Bound(NamedTuple):
     """A template for one vehicle: its tasks, the owners of its values, the kinds of its targets,
-    and the position slot of a target or id that has one (`PerformOrbit T1 P1`).
+    the position slot of a target or id that has one (`PerformOrbit T1 P1`), and its own limits.
     """
 
     lines: list[Line]
     owners: Owners
     kinds: dict[str, str]
     places: Mapping[str, str]
+    limits: tuple[Call, ...] = ()
 
 
 def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
     """A command for this vehicle; with its word lists. Raises TemplateError."""
     every = [slot for slot in all_slots(template.nodes) if slot.sign != "?"]
     slots, surely = {slot.key for slot in every}, grammar.always(template.nodes)
-    lines = [_line(step, vocabulary, slots) for step in template.steps]
+    kinds = load_limits(vocabulary)
+    limits = tuple(step.call for step in template.steps if step.call.name in kinds)
+    steps = [step for step in template.steps if step.call.name not in kinds]
+    lines = [_line(step, vocabulary, slots) for step in steps]
     for title in template.excluded:
         if title != HOME and title not in vocabulary.task:
             raise TemplateError(f"there is no task {title} to rule out")
@@ -73,13 +87,17 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
     owners: Owners = {}
     for task, fills in ((line.task, line.fills) for line in lines if line.task):
         owners = {fill.slot: (task, fill.parameter) for fill in reversed(fills)} | owners
+    asked = {str(one.value) for call in limits for one in call.arguments if one.kind == "slot"}
+    for key in asked - owners.keys():
+        if base_of(key) in LIMIT.by_name:
+            owners[key] = LIMIT, LIMIT.by_name[base_of(key)]
     for slot in every:
         if not (slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists):
             owners[slot.key] = _owner(slot, vocabulary)
     arguments = itertools.chain(*(step.call.arguments for step in template.steps))
     unused = {str(argument.value) for argument in arguments if argument.kind == "unused"}
-    used = unused.union(*(line.slots() for line in lines))
-    return bound(template, lists, used, owners, lines)
+    used = unused.union(asked, *(line.slots() for line in lines))
+    return bound(template, lists, used, owners, lines)._replace(limits=limits)
 
 
 def bound(
@@ -128,13 +146,17 @@ def _line(step: grammar.Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
         elif name == "part":
             text = value if argument.kind == "literal" else f"{{{value}}}"
             line = line._replace(part=grammar.parse_text(text))
+        elif name == "spot":
+            line = line._replace(spot=value)
+        elif not name and is_formula(value):
+            line.objects.append(value)
         elif not name and value == "here":
             line = line._replace(here=True)
         elif not name and base in (*OBJECTS, CLAUSE):
             (line.clauses if base == CLAUSE else line.objects).append(value)
         else:
             line.fills.append(_fill(task, argument, keys))
-    if task.arrival != "none" and not line.objects and not line.here:
+    if task.arrival != "none" and not (line.objects or line.here or line.spot):
         raise TemplateError(f"{call.name} has no place: T1, P1, or here")
     if task.title == vocabulary.locate and not any(key[0] == "T" for key in line.objects):
         raise TemplateError(f"{call.name} needs a target, T1")
@@ -150,7 +172,7 @@ def _fill(task: Task, argument: grammar.Argument, keys: set[str]) -> Fill:
     if argument.kind == "literal":
         whole = isinstance(value, float) and value.is_integer()
         return Fill(task.by_name[name], value=int(value) if whole else value)
-    if str(value) not in keys:
+    if not operands(str(value)) <= keys:
         raise TemplateError(f"{value} stands in the plan and not in the text")
     return Fill(task.by_name[name], str(value))
 

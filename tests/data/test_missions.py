@@ -11,10 +11,12 @@ from pathlib import Path
 import jsonschema
 import pytest
 
+from planner_ft.data.formulas import is_formula, worked_out
 from planner_ft.data.missions import MissionSampler, mission_sampler, sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
+from planner_ft.facts.places import read_positions
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.vocabulary import load_vocabulary
@@ -48,8 +50,8 @@ def titles(tasks):
 
 @pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)
 def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
-    """Values that the text leaves to arithmetic stand in the plan as literals and are not checked
-    here; searches and returns that a record asks for in other words are few.
+    """Values that the text leaves to arithmetic stand in the plan as literals or formulas and are
+    not checked here; searches and returns that a record asks for in other words are few.
     """
     sampler = MissionSampler(vehicle)
     lines = list(itertools.chain(*sampler.groups))
@@ -58,7 +60,15 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
     for number, line in enumerate(lines):
         bound = sampler.bound(line)
         literal = {
-            fill.parameter.name for item in bound.lines for fill in item.fills if not fill.slot
+            fill.parameter.name
+            for item in bound.lines
+            for fill in item.fills
+            if not fill.slot or is_formula(fill.slot)
+        } | {
+            str(task.position_parameter)
+            for item in bound.lines
+            for task in (item.task, vehicle.task[vehicle.transit])
+            if task and any(map(is_formula, item.objects))
         }
         command = sampler.compose([line], random.Random(f"{line.id}0"))
         text, expected = command.text, command.expected
@@ -214,6 +224,64 @@ def test_searches_and_transits_follow_the_rules(command, plan, wanted):
     command = command if "P1" not in plan or "{P1}" in command else f"{{P1}}: {command}"
     for _text, tasks, _expected in draws(command, plan, 8):
         assert titles(tasks) == wanted.split()
+
+
+@pytest.mark.parametrize(
+    ("command", "plan", "works"),
+    [
+        (
+            "Sound {P1} to {P2}.",
+            "BathymetryGridSurvey mid(P1,P2) width=dx(P1,P2) length=dy(P1,P2)",
+            lambda task: [
+                {2 * middle - side, 2 * middle + side}
+                for middle, side in zip(
+                    task["center"], (task["width"], task["length"]), strict=True
+                )
+            ],
+        ),
+        (
+            "Corner {P1}, {width} by {length}, {P2}.",
+            "BathymetryGridSurvey from_sw(P1,width,length) width length; Transit P2",
+            lambda task: [
+                {2 * middle - side}
+                for middle, side in zip(
+                    task["center"], (task["width"], task["length"]), strict=True
+                )
+            ],
+        ),
+    ],
+)
+def test_areas_lie_between_their_corners(command, plan, works):
+    """The doubled coordinates of the corners, worked out from the plan, are those of the text."""
+    bound = 0
+    for text, tasks, _plan in draws(command, plan, 60):
+        said = [{2 * place.x, 2 * place.y} for place in read_positions(text)[:2]]
+        for side, sides in enumerate(works(tasks[0][1])):
+            known = {round(number, 1) for place in said for number in place}
+            bound += {round(number, 1) for number in sides} <= known
+            assert side < 2
+    assert bound >= 100
+
+
+@pytest.mark.parametrize(("heading", "step"), [(0, (0, 50)), (90, (50, 0)), (180, (0, -50))])
+def test_a_move_ends_so_far_from_where_it_began(heading, step):
+    place = {"P1": (10, 20), "length": 50, "heading": heading}
+    once = worked_out("move(P1,length,heading)", place.__getitem__)
+    assert once == (10 + step[0], 20 + step[1])
+    twice = worked_out("mid(P1,move(move(P1,length,heading),length,heading))", place.__getitem__)
+    assert twice == once
+
+
+def test_a_command_has_limits_of_its_own_and_docks_without_a_name():
+    command = "Mind {T1:hazard located}, {distance} off it. {P1}. Dock."
+    plan = 'Transit P1; DockingApproach spot="dock"; keep_out T1 distance'
+    for _text, tasks, expected in draws(command, plan):
+        assert titles(tasks) == ["Transit", "DockingApproach"]
+        assert tasks[1][1] == {"goal_position": [-99, -99]}
+        (limit,) = expected["constraints"]
+        assert limit.startswith("The vehicle stays at least ")
+        asked = limit.replace("The vehicle stays", "Keep")
+        assert all(task["task_prompt"].endswith(asked) for task in expected["tasks"])
 
 
 def test_what_is_taken_back_is_said_but_not_planned():

@@ -28,7 +28,7 @@ _WORD = re.compile(r"""(?:[^\s"';]|"[^"]*"|(?<==)'[^']*'|')+|;""")
 _HEAD = re.compile(r"""[+&]?("[^"]+"|[\w-]+)(?:\?([^@]*))?(?:@(first|last))?""")
 _ARGUMENT = re.compile(
     r"""(?:(?P<name>\w+)=)?(?:(?P<quote>["'])(?P<text>.*)(?P=quote)|~(?P<unused>.+)"""
-    r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*))|(?P<number>-?\d+(?:\.\d+)?))""",
+    r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*(?:\([\w,()]*\))?))|(?P<number>-?\d+(?:\.\d+)?))""",
     re.DOTALL,
 )
 _KINDS = {"text": "literal"}
