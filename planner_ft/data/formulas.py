@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from planner_ft.data.templates.grammar import fail
 from planner_ft.facts.geometry import Point, offset, point, tidy
 
 
@@ -45,9 +46,14 @@ def is_formula(key: str) -> bool:
 
 
 def operands(key: str) -> set[str]:
-    """The slots that a formula needs; of a slot, the slot itself."""
-    found = {node.id for node in ast.walk(ast.parse(key)) if isinstance(node, ast.Name)}
-    return found - {*FORMULAS, HOME} if is_formula(key) else {key}
+    """The slots that a formula needs; of a slot, the slot itself. Raises TemplateError."""
+    if not is_formula(key):
+        return {key}
+    try:
+        nodes = list(ast.walk(ast.parse(key, mode="eval")))
+    except SyntaxError:
+        fail(f"{key} is no formula")
+    return {node.id for node in nodes if isinstance(node, ast.Name)} - {*FORMULAS, HOME}
 
 
 def worked_out(key: str, value: Callable[[str], Any]) -> Any:

@@ -103,6 +103,10 @@ def test_owners_kinds_and_places_of_slots() -> None:
         ("Find {P1}.", "SearchAndDetect P1", "SearchAndDetect needs a target, T1"),
         ("Hold {zork}.", "KeepStation here ~zork", "{zork} is no target, parameter or word list"),
         ("Hold.", "KeepStation here &Fly", "there is no skill Fly"),
+        ("Hold {P1}.", "KeepStation mid(P1,P2)", "P2 stands in the plan and not in the text"),
+        ("Hold {P1}.", "KeepStation amid(P1)", "amid stands in the plan and not in the text"),
+        ("Hold {P1}.", "KeepStation mid(P1,,P1)", "mid(P1,,P1) is no formula"),
+        ("Hold {P1}.", "KeepStation P1; keep_out T1", "T1 stands in the plan and not in the text"),
     ],
 )
 def test_mistakes_are_named(text: str, plan: str, problem: str) -> None:
