@@ -146,7 +146,7 @@ def _line(step: grammar.Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
         elif name == "part":
             text = value if argument.kind == "literal" else f"{{{value}}}"
             line = line._replace(part=grammar.parse_text(text))
-        elif name == "spot":
+        elif name == "spot" and name not in task.by_name:
             line = line._replace(spot=value)
         elif not name and is_formula(value):
             line.objects.append(value)
