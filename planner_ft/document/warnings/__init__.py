@@ -57,7 +57,7 @@ CHECKS: tuple[Check, ...] = (
     *(space.broken_limits, space.close_structures, route.open_places, route.order),
     *(space.boundaries, space.area_and_reach, route.endurance, route.missing_return),
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
-    asked.against_itself,
+    *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     performed.performed,
     *(said.measures, said.bare_numbers, said.clock_times),

@@ -183,6 +183,22 @@ def _own_tasks(case: Case) -> int:
     )
 
 
+def conditions(case: Case) -> Iterator[Warning]:
+    """Clauses that make an order depend on something of which the plan's texts have no word."""
+    texts = " ".join([*case.texts, *(task["task_prompt"] for task in case.tasks)]).casefold()
+    for clause in (one for one in case.clauses if not one.corrected):
+        match = case.words["condition"].search(clause.text)
+        if match is None or case.words["supposed"].search(clause.text):
+            continue
+        behind = clause.text[match.end() :].strip(" ,;.")
+        # "weather permitting" has its words before.
+        text = clause.text[match.start() :] if behind else clause.text
+        said = re.findall(r"[a-z]{4,}", (behind or clause.text[: match.start()]).casefold())
+        if said and not any(word[:STEM] in texts for word in said):
+            words = quoted(text.strip(" ,;."))
+            yield warning("condition-lost", words=words, about=words.casefold())
+
+
 def home_and_not(case: Case) -> Iterator[Warning]:
     """A command that asks for home and rules it out, and a plan that ends there."""
     said = [

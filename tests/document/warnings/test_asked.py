@@ -195,3 +195,24 @@ def test_data_that_are_ruled_out_are_told_with_the_skills_that_gather_them() -> 
     assert text.endswith("have CaptureGeoSnapshot, SetStreamRecording.")
     assert found("Go to [40, 20] but record nothing.", "GetSeabedDepth") == []
     assert found("Go to [40, 20].", *both) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "texts", "lost"),
+    [
+        ("Go to [30, 40] if all is green.", [], "if all is green"),
+        ("Weather permitting, go to [30, 40].", [], "Weather permitting"),
+        ("If the battery is above half, go to [30, 40].", [], "If the battery is above half"),
+        ("Unless the ferry is in, go to [30, 40].", ["Only while the ferry is out."], None),
+        ("Go to [30, 40] if the swell is low.", ["Only if the swell is low."], None),
+        ("Go to [30, 40], if I remember right.", [], None),
+        ("Go to [30, 40] if possible.", [], None),
+        ("If all is green, no wait, go to [30, 40] now.", [], None),
+    ],
+)
+def test_a_condition_that_no_text_of_the_plan_has(
+    command: str, texts: list[str], lost: str | None
+) -> None:
+    plan = document([THERE], command=command, constraints=texts)
+    said = [one["text"] for one in plan["warnings"] if one["kind"] == "condition-lost"]
+    assert [f'"{lost}"' in text for text in said] == [True] * (lost is not None)
