@@ -133,7 +133,7 @@ def exact_swaps(differences: Iterable[float]) -> float:
     chances[total] = 1
     for size in map(abs, whole):
         chances = (np.roll(chances, size) + np.roll(chances, -size)) / 2
-    return float(min(1.0, chances[: total - seen + 1].sum() + chances[total + seen :].sum()))
+    return min(1.0, 2 * float(chances[total + seen :].sum()))
 
 
 def swaps(sums: statistics.Floats, seed: int) -> float:

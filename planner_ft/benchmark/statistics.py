@@ -69,10 +69,8 @@ def effective_size(counts: Sequence[tuple[int, int]]) -> float:
         return n
     rate = sum(hits for hits, _size in counts) / n
     most = sum(size**2 for _hits, size in counts) / n
-    if clusters == 1 or rate in (0, 1):
+    if clusters < 3 or rate in (0, 1):
         return n / most
-    if clusters < 3:
-        return max(n / most, 1.0)
     from scipy.special import stdtrit
 
     between = sum((hits - rate * size) ** 2 for hits, size in counts) * clusters / (clusters - 1)

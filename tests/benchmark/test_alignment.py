@@ -52,6 +52,20 @@ def test_parameters_that_are_all_right_come_before_everything() -> None:
     ).pairs == ((0, 2), (1, 1), (2, 0))
 
 
+@pytest.mark.parametrize(
+    ("near", "far", "partner"),
+    [(300, 301, 0), (301, 300, 0), ("5 min", 301, 2), ("5 min", 300, 2), (400, 300, 2)],
+)
+def test_a_value_within_tolerance_is_as_right_as_the_stated_one(
+    near: Any, far: Any, partner: int
+) -> None:
+    expected = mission(("KeepStation", {"duration": 300}))
+    predicted = mission(
+        ("KeepStation", {"duration": near}), "Diagnostics", ("KeepStation", {"duration": far})
+    )
+    assert aligned("mission", expected, predicted).pairs == ((0, partner),)
+
+
 def test_a_share_counts_the_keys_of_both() -> None:
     """Nearness would take the first, which has the same key right and one more too many."""
     expected = mission(("PerformOrbit", {"center": [1, 1], "radius": 20}))
@@ -240,6 +254,11 @@ def test_a_sum_of_nearness_decides_between_equals() -> None:
     once = mission("KeepStation", "Hover", "Hover", "Hover", "Hover", "KeepStation", "Hover")
     middle = mission("Hover", "Hover", "Hover", "Hover", "KeepStation", "Hover", "Hover")
     assert (4, 5) in aligned("mission", middle, once).pairs
+    two, three = ["Hover"] * 2, ["Hover"] * 3
+    twice = mission(*three, "KeepStation", *three, "KeepStation", *three)
+    alone = mission(*two, "KeepStation", *two)
+    assert (2, 3) in aligned("mission", alone, twice).pairs
+    assert (3, 2) in aligned("mission", twice, alone).pairs
 
 
 def test_unlabelled_parameters_are_no_reason_to_pair() -> None:

@@ -28,6 +28,7 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
+from tests.values import changeable
 
 USV = load_vocabulary()
 
@@ -66,6 +67,11 @@ ORBIT = mission(
     ("PerformOrbit", {"center": [-99, -99], "radius": 20}),
     ("Transit", {"target_position": [0, 0]}),
 )
+
+
+def test_what_was_measured_cannot_be_changed() -> None:
+    names = ("metrics", "paired", "statistics")
+    assert changeable(*(f"planner_ft.benchmark.{name}" for name in names)) == []
 
 
 @pytest.mark.parametrize(

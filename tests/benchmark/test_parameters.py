@@ -129,6 +129,9 @@ UNRESOLVED = list(USV.unresolved)
         ([], RING, POLYGON, False),
         ("ring", RING, POLYGON, False),
         (RING, "ring", POLYGON, False),
+        (5, RING, POLYGON, False),
+        (RING, None, POLYGON, False),
+        (None, RING, POLYGON, False),
     ],
 )
 def test_values_agree_up_to_the_labelling_rules(

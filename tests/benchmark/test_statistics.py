@@ -38,6 +38,7 @@ def test_nothing_measured_is_no_figure() -> None:
     with pytest.raises(ValueError):
         clustered_rate([True, False], ["a"])
     assert wilson(0, 0).value is None
+    assert (wilson(0, 7).low, wilson(7, 7).high) == (0, 1)
     assert bootstrap_mean([], [], 0).value is None
     assert bootstrap_ratio([0.0], [0.0], ["a"], 0).value is None
 
@@ -69,7 +70,10 @@ def test_samples_of_one_family_count_as_one() -> None:
 
 
 def test_a_ratio_pools_its_samples() -> None:
-    assert bootstrap_ratio([1, 9], [2, 10], ["a", "b"], 0).value == pytest.approx(10 / 12)
+    found = bootstrap_ratio([1, 9], [2, 10], ["a", "b"], 0)
+    assert (found.value, found.low, found.high) == (pytest.approx(10 / 12), 0.5, 0.9)
+    parts = bootstrap_ratio([0.1, 0.2], [0.4, 0.4], ["a", "b"], 0)
+    assert (parts.low, parts.high) == (0.25, 0.5)
 
 
 def test_a_rate_of_independent_samples_has_the_wilson_interval() -> None:
@@ -126,7 +130,7 @@ def test_many_clusters_are_resampled_in_blocks_as_few_are(monkeypatch: pytest.Mo
 
     sums = np.random.default_rng(0).random((30, 2))
     whole = resampled_sums(sums, 5)
-    monkeypatch.setattr(statistics, "BLOCK", 70)
+    monkeypatch.setattr(statistics, "BLOCK", 30 * 7)
     statistics._drawn.cache_clear()
     assert np.allclose(resampled_sums(sums, 5), whole) and whole.shape == (10_000, 2)
 
@@ -147,6 +151,9 @@ def test_many_clusters_are_resampled_in_blocks_as_few_are(monkeypatch: pytest.Mo
         ([(1, 2)] * 4, 8 * (2.3646 / 3.1824) ** 2),
         # And at most the size of a family: rate 1/2, effect 4 * 2 / 3 held to 2.
         ([(2, 2), (2, 2), (0, 2), (0, 2)], 4 * (2.3646 / 3.1824) ** 2),
+        # Between the two: rate 1/2, variance (4 + 4) * 4/3 / 16 of a sample, effect 8/3; quantiles
+        # for 15 and 3 degrees of freedom 2.1314 and 3.1824.
+        ([(4, 4), (2, 4), (2, 4), (0, 4)], 16 / (8 / 3) * (2.1314 / 3.1824) ** 2),
     ],
 )
 def test_effective_sizes(counts: list[tuple[int, int]], size: float) -> None:

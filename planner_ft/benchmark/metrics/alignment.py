@@ -104,13 +104,13 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
     def company(one: int, other: int) -> float:
         if expected[one].name not in leading:
             return float((expected[one].step, predicted[other].step) in steps)
-        most = max(ours[one].total(), theirs[other].total(), 1)
+        most = max(ours[one].total(), theirs[other].total())
         return (ours[one] & theirs[other]).total() / most
 
     def weight(one: int, other: int) -> float:
-        near = 1 - ((one - other) / size) ** 2
+        far = ((one - other) / size) ** 2
         likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
-        return likeness + (COMPANY * company(one, other) + NEARNESS * near) / size
+        return likeness + (COMPANY * company(one, other) - NEARNESS * far) / size
 
     pairs: list[Pair] = []
     for lead in (True, False):
@@ -155,12 +155,10 @@ def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: V
     stated, given = ours.parameters, theirs.parameters
     if not ours.stated:
         return 0.0
-    if stated == given:
-        return 1.0 + 2 * size
     agreeing = agreeing_keys(level, ours.name, given, stated, vocabulary)
-    share = 2 * len(agreeing) / (len(stated) + len(given))
+    share = 1.0 if stated == given else 2 * len(agreeing) / (len(stated) + len(given))
     right = share == 1.0 and parameters_agree(level, ours.name, given, stated, vocabulary)
-    return share + 2 * size * right
+    return share + size * right
 
 
 def _by_name(entries: Entries, leading: set[str], lead: bool) -> dict[str, list[int]]:

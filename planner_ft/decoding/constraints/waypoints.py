@@ -27,7 +27,7 @@ from planner_ft.vocabulary import Vocabulary
 Point = g.Point
 Path = tuple[Point, ...]
 
-MOST_PATHS, MOST_WAYPOINTS = 4000, 64
+MOST_PATHS, MOST_LANES = 4000, 32
 BEGUN = 3
 """Waypoints in a row that begin a path: two can look like the beginning of many."""
 SIZES = ("width", "length", "spacing")
@@ -155,7 +155,7 @@ def _lanes(middle: Point, width: float, length: float, spacing: float) -> Iterat
     axes: tuple[g.Axis, ...] = ("y", "x")
     for axis in axes:
         lanes = g.lane_count(width if axis == "y" else length, spacing) if spacing > 0 else None
-        if lanes is not None and 2 <= lanes <= MOST_WAYPOINTS // 2:
+        if lanes is not None and 2 <= lanes <= MOST_LANES:
             for corner in g.CORNERS:
                 yield tuple(g.lawnmower(middle, width, length, spacing, corner, axis))
 

@@ -10,6 +10,7 @@ import pytest
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.decoding.configurations import Strength
 from planner_ft.prompts.text import answer_text
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
@@ -45,8 +46,9 @@ def admitted(
     entries: list[Entry],
     vocabulary: Vocabulary | None = None,
     prompt: str = "inspect the red buoy",
+    strength: Strength = "state",
 ) -> bool:
-    factory = make_factory(tokenizer, "mission", vocabulary or load_vocabulary(), "state")
+    factory = make_factory(tokenizer, "mission", vocabulary or load_vocabulary(), strength)
     ids = answer_ids(tokenizer, text_of(entries))
     return factory.start({"prompt": prompt}).admits(ids) == len(ids)
 
@@ -59,6 +61,7 @@ def admitted(
         [BUOY, go(*UNKNOWN), orbit(*UNKNOWN)],
         [BUOY, ("SurveyTarget", {"target_position": UNKNOWN, "radius": 10}), ("KeepStation", {})],
         [BUOY, ("FollowTarget", {"target_position": UNKNOWN})],
+        [BUOY, go(*UNKNOWN), ("GlareFreeApproach", {"target_feature": "red buoy"})],
         [("FollowTarget", {"target_id": "contact 4"})],
         [("FollowTarget", {"target_id": "contact 4", "target_position": [1, 2]})],
         [("DockingApproach", {"goal_position": UNKNOWN})],
@@ -101,6 +104,7 @@ def test_logical_plans_can_be_written(embedded: Any, entries: list[Entry]) -> No
 )
 def test_plans_without_logic_cannot(embedded: Any, entries: list[Entry]) -> None:
     assert not admitted(embedded, entries)
+    assert admitted(embedded, entries, strength="schema")
 
 
 @pytest.mark.parametrize("level", LEVELS)
