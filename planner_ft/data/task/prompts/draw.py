@@ -133,7 +133,11 @@ class Drawing(Chosen):
         fixed = int(count.value) if count and count.kind == "literal" else None
         for role, size in line_legs(fixed, self.rng).items():
             argument = arguments.get(role)
-            value = length(size, self.rng) if role != "count" else Value(size, count_text(size, self.rng))
+            value = (
+                length(size, self.rng)
+                if role != "count"
+                else Value(size, count_text(size, self.rng))
+            )
             if argument is not None and argument.kind == "slot":
                 self.values[str(argument.value)] = value
             elif argument is not None and argument.kind == "param":
