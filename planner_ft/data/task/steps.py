@@ -58,6 +58,12 @@ def _reports(vocabulary: Vocabulary, running: tuple[str, ...]) -> list[list[str]
     return [list(filter(None, dict.fromkeys(t))) for t in ([skills[0].stop], failures, outputs)]
 
 
+def _stands(at: str, number: int, count: int) -> bool:
+    """Whether what is marked `at` stands at waypoint `number`, counted from 0, of `count`."""
+    marks = {"first": number == 0, "last": number == count - 1}
+    return marks.get(at, not at or (at == "even") == bool(number % 2))
+
+
 class Plan:
     """The steps of a bound template. `labels` are those that were chosen; `given` has the value of
     a slot or a task parameter, None where it was not said; `added` runs in every step.
@@ -90,24 +96,23 @@ class Plan:
         entries: list[Entry] = []
         moves = self._moves(step.call)
         for number, (name, parameters) in enumerate(moves):
-            own = self.beside(step, number == 0, number == len(moves) - 1)
+            own = self.beside(step, number, len(moves))
             parts = (common, own) if self.bound.front else (own, common)
             filters, perceptions = ([*first, *then] for first, then in zip(*parts, strict=True))
             for mine, more in zip((filters, perceptions), self.added, strict=True):
                 mine += [entry for entry in more if entry not in mine]
             entries.append(plan_step(name, parameters, filters, perceptions, self.vocabulary))
-            if step.each:
+            if step.each and _stands(step.each.call.at, number, len(moves)):
                 entries += self._expand(step.each, common)
         return entries
 
-    def beside(self, step: Pattern, first: bool = True, last: bool = True) -> Beside:
-        """Filters and perception skills at this waypoint."""
-        at = {"": True, "first": first, "last": last}
+    def beside(self, step: Pattern, number: int = 0, count: int = 1) -> Beside:
+        """Filters and perception skills at waypoint `number`, counted from 0, of `count`."""
         filters, perceptions = (
             [
                 entry_of(call.name, self._parameters(call), self.vocabulary)
                 for call in calls
-                if at[call.at] and (not call.label or call.label in self.labels)
+                if _stands(call.at, number, count) and (not call.label or call.label in self.labels)
             ]
             for calls in (step.filters, step.perceptions)
         )

@@ -25,7 +25,7 @@ _CLOSES = {"(": ")", "[": "]"}
 _MARK = re.compile(r"\\(.?)|\{([^}]*)\}|([(\[{|)\]}])")
 _SLOT = re.compile(r"(param\.|[~_?]?)([A-Za-z]\w*)(?::(\w*))?((?: +\w+)*) *", re.ASCII)
 _WORD = re.compile(r"""(?:[^\s"';]|"[^"]*"|(?<==)'[^']*'|')+|;""")
-_HEAD = re.compile(r"""[+&]?("[^"]+"|[\w-]+)(?:\?([^@]*))?(?:@(first|last))?""")
+_HEAD = re.compile(r"""[+&]?("[^"]+"|[\w-]+)(?:\?([^@]*))?(?:@(first|last|odd|even))?""")
 _ARGUMENT = re.compile(
     r"""(?:(?P<name>\w+)=)?(?:(?P<quote>["'])(?P<text>.*)(?P=quote)|~(?P<unused>.+)"""
     r"""|(?P<minus>-?)(?:param\.(?P<param>\w+)|(?P<slot>[A-Za-z][\w-]*(?:\([\w,()]*\))?))|(?P<number>-?\d+(?:\.\d+)?))""",
@@ -219,7 +219,7 @@ class Argument:
 @dataclass(frozen=True, slots=True)
 class Call:
     """A task, skill or shape with its arguments. `label`: only where that alternative, or one with
-    the slot of this name, was chosen; `at`: only at the "first" or "last" waypoint of a shape.
+    the slot of this name, was chosen; `at`: only at the "first", "last", "odd" or "even" waypoints of a shape.
     """
 
     name: str

@@ -26,6 +26,8 @@ from planner_ft.vocabulary.definition import Role, Task, Vocabulary
 XY = "xy"
 WORDS = ("start", "turn", "axis")
 """Roles that a word of the plan fills: `turn=clockwise`."""
+JOINT = {"Grid": ("width", "length", "spacing", "count"), "Line": ("spacing",)}
+"""Roles of a shape that are drawn as a whole, so that they fill each other."""
 
 
 class Source(NamedTuple):
@@ -185,7 +187,7 @@ class _Binder:
             if argument.kind == "slot" and role in WORDS and value not in self.keys:
                 argument = replace(argument, kind="literal")
             elif argument.kind == "slot":
-                joint = call.name == "Grid" and role in ("width", "length", "spacing", "count")
+                joint = role in JOINT.get(call.name, ())
                 draw = _no_draw if joint else value_draw(call.name, role, base_of(value))
                 self._use(value, Source(draw, shape.roles.get(role, "")))
             arguments.append(replace(argument, name=role))
@@ -214,7 +216,7 @@ class _Binder:
 
 
 def _no_draw(_rng: Any) -> Value:
-    return fail("the size of a Grid is drawn as a whole")
+    return fail("sizes that fill each other are drawn as a whole")
 
 
 def _among(names: Iterable[str]) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from planner_ft.data.numbers import Value, angle, count_text, length, pick, rotation
 from planner_ft.data.task.context import Context
 from planner_ft.data.task.prompts.binding import Bound, Source
-from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size
+from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size, line_legs
 from planner_ft.data.task.steps import Entry, Plan
 from planner_ft.data.templates.grammar import Argument, Call, Chosen, Slot, base_of, is_small
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
@@ -65,6 +65,8 @@ class Drawing(Chosen):
         for step in bound.steps:
             if step.call.name == "Grid":
                 self._grid(step.call)
+            elif step.call.name == "Line":
+                self._line(step.call)
         self.plan = Plan(bound, self.book, self.labels | self.said, self._value)
         for slot in self.slots:
             if not slot.sign and slot.key not in self.values:
@@ -117,6 +119,29 @@ class Drawing(Chosen):
             if name and free and (name in context.values or rng.random() < SPACING):
                 context.values[name] = value
                 context.used.add(name)
+
+    def _line(self, call: Call) -> None:
+        """Length and legs that fill it, in the slots and in the task's parameters."""
+        arguments = {
+            argument.name: argument
+            for argument in call.arguments
+            if argument.kind != "slot" or argument.value in self.said
+        }
+        if arguments.keys().isdisjoint(("spacing", "count")):
+            return
+        count = arguments.get("count")
+        fixed = int(count.value) if count and count.kind == "literal" else None
+        for role, size in line_legs(fixed, self.rng).items():
+            argument = arguments.get(role)
+            value = (
+                length(size, self.rng)
+                if role != "count"
+                else Value(size, count_text(size, self.rng))
+            )
+            if argument is not None and argument.kind == "slot":
+                self.values[str(argument.value)] = value
+            elif argument is not None and argument.kind == "param":
+                self.context.values[str(argument.value)] = value
 
     def _draw(self, slot: Slot) -> Value:
         """A value for the slot: the task's own, now and then, or a new one."""

@@ -63,6 +63,15 @@ def _grid(values: Values) -> list[g.Point]:
     return g.lawnmower(values["point"], width, along, spacing, start, axis)
 
 
+def _line(values: Values) -> list[g.Point]:
+    """Start and end, or a waypoint behind every spacing, or behind each of `count` legs."""
+    far = values["length"]
+    legs = int(values.get("count") or round(far / values.get("spacing", far)))
+    ways = (far * number / legs for number in range(1, legs + 1))
+    start = g.point(*values["point"])
+    return [start, *(g.offset(start, values["heading"], way) for way in ways)]
+
+
 def _pass(values: Values) -> list[g.Point]:
     """Along a side of a structure, from the south or the west."""
     bearing = BEARINGS.get(values.get("side", ""), 45)
@@ -90,10 +99,7 @@ SHAPES: Mapping[str, Shape] = {
             clockwise=_clockwise(v),
         ),
     ),
-    "Line": Shape(
-        *("goto", "line", "point:start heading length", ""),
-        lambda v: g.straight_line(v["point"], v["heading"], v["length"]),
-    ),
+    "Line": Shape("goto", "line", "point:start heading length", "spacing count", _line),
     "Pass": Shape("goto", "pass", "point length distance", "side", _pass),
     "Offset": Shape(
         *("goto", "GoToXY", "point:xy heading length", ""),
@@ -172,3 +178,10 @@ def grid_size(rng: Random, *, free: bool) -> dict[str, float]:
         along = g.tidy(5 * rng.randrange(1, 31) if round_ else rng.randrange(5, 120))
     count = g.lane_count(width if free else along, spacing) or 0
     return {"width": width, "length": along, "spacing": spacing, "count": count}
+
+
+def line_legs(count: int | None, rng: Random) -> dict[str, float]:
+    """The length of a line and its legs, which fill it; `count`: of the legs, where it is set."""
+    spacing = pick(TABLE["line"]["spacing"], rng)
+    count = count or pick(TABLE["draws"]["Line"]["count"], rng)
+    return {"spacing": spacing, "count": count, "length": g.tidy(spacing * count)}
