@@ -29,6 +29,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.document_schema import document_schema
 from tests.documents import DRONE, USV, document, step, task
+from tests.values import changeable
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +49,11 @@ def test_anybody_can_compute_the_digest(plan: PlanDocument) -> None:
     assert (
         plan["digest"] == hashlib.sha256(rfc8785.dumps(rest)).hexdigest() == document_digest(plan)
     )
+
+
+def test_what_a_document_is_made_of_cannot_be_changed() -> None:
+    draft = "planner_ft.document.operations.Draft"
+    assert changeable("planner_ft.document", "planner_ft.document.warnings") == [draft]
 
 
 def test_numbers_that_have_no_exact_form_still_have_a_digest(plan: PlanDocument) -> None:

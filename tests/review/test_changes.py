@@ -14,8 +14,13 @@ from planner_ft.review.desk import open_desk
 from planner_ft.review.terminal import review_lines
 from planner_ft.support.files import compact_json, write_json
 from planner_ft.vocabulary import Vocabulary
+from tests.values import changeable
 
 WIDER = {"kind": "parameter", "task": "t3", "name": "radius", "value": 15}
+
+
+def test_what_a_review_is_made_of_cannot_be_changed() -> None:
+    assert changeable("planner_ft.review") == []
 
 
 def test_a_plan_as_it_was_saved_differs_in_nothing(document: PlanDocument, usv: Vocabulary) -> None:

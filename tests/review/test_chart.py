@@ -57,6 +57,10 @@ def test_it_fits_and_the_scale_bar_is_as_long_as_it_says(extent: float, braille:
     assert bar * per_column == pytest.approx(metres, rel=0.2)
 
 
+def test_a_long_and_low_track_takes_few_rows() -> None:
+    assert [len(sketch(path((0, 0), (100, north)))[0]) for north in (0, 5, 10, 99)] == [2, 4, 5, 16]
+
+
 def test_circles_and_boundaries_are_drawn_around_what_they_enclose() -> None:
     circle = Circle("t1", (50, 0), 40, None)
     square = Boundary("t1", 0, ((0, -60), (120, -60), (120, 60), (0, 60)))

@@ -119,6 +119,46 @@ def test_durations_as_they_are_said(
     assert admitted(embedded, ("KeepStation", {"duration": seconds}), prompt=prompt) is possible
 
 
+def survey(radius: float) -> tuple[str, dict[str, Any]]:
+    return "SurveyTarget", {"target_position": [0, 0], "radius": radius}
+
+
+def hold(seconds: float) -> tuple[str, dict[str, Any]]:
+    return "KeepStation", {"duration": seconds}
+
+
+def go(x: float, y: float) -> tuple[str, dict[str, Any]]:
+    return "Transit", {"target_position": [x, y]}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "possible", "impossible"),
+    [
+        # Numbers are rounded to two or four decimals, places to two.
+        ("survey home at 10.123456 m off", survey(10.12), survey(10.123)),
+        ("survey home at 10.123456 m off", survey(10.1235), survey(10.12346)),
+        ("go to [12.346, 5]", go(12.35, 5), go(12.346, 5)),
+        # The bounds of a parameter, and of a number that can be written.
+        ("hold for 604800 s", hold(604800), hold(604801)),
+        ("hold for 0 s or 604801 s", hold(0), hold(604801)),
+        ("go to [9999999, 5] or [10000000, 5]", go(9999999, 5), go(10000000, 5)),
+        (
+            "panorama, 8 sectors or 9.5 sectors",
+            ("HorizontalPanorama", {"sectors": 8}),
+            ("HorizontalPanorama", {"sectors": 9}),
+        ),
+    ],
+)
+def test_stated_numbers_are_written_as_parameters_take_them(
+    embedded: Any,
+    prompt: str,
+    possible: tuple[str, dict[str, Any]],
+    impossible: tuple[str, dict[str, Any]],
+) -> None:
+    assert admitted(embedded, possible, prompt=prompt)
+    assert not admitted(embedded, impossible, prompt=prompt)
+
+
 def test_places_lie_a_stated_way_off(embedded: Any) -> None:
     prompt = "A panorama from a spot forty metres due south of home."
     assert admitted(embedded, ("Transit", {"target_position": [0, -40]}), prompt=prompt)
@@ -143,6 +183,10 @@ def test_sentences_have_no_numbers_that_nobody_said(embedded: Any) -> None:
     assert admitted(embedded, entry, sentence='Say "hold" at -99 or home, 0.')
     assert not admitted(embedded, entry, sentence="Hold for 31 minutes.")
     assert not admitted(embedded, entry, sentence="Hold for 1801 seconds.")
+    digits = "1234567890123456"
+    for number, possible in ((digits, True), (digits + "7", False)):
+        command = f"hold for 1800 s at contact {number}"
+        assert admitted(embedded, entry, prompt=command, sentence=number) is possible
 
 
 def test_where_facts_cannot_be_read_there_is_room_and_a_note(embedded: Any) -> None:
@@ -305,6 +349,12 @@ def test_a_fence_has_corners_that_the_input_states(embedded: Any) -> None:
     assert factory.start(record).admits(right) == len(right)
     wrong = answer_ids(embedded, answer % "[[-500,-500],[400,-500],[500,500]]")
     assert factory.start(record).admits(wrong) < len(wrong)
+    # Up to eight known places, home among them, have corners in between.
+    between = answer_ids(embedded, answer % "[[1,10],[2,20],[1,20]]")
+    for count, possible in ((7, True), (8, False)):
+        corners = ", ".join(f"[{place}, {10 * place}]" for place in range(1, count + 1))
+        many = {**record, "prompt": f"Float. Fence corners {corners}."}
+        assert (factory.start(many).admits(between) == len(between)) is possible
 
 
 @pytest.mark.parametrize(
