@@ -1,6 +1,7 @@
 """Whole-prompt templates: what a line says, and the steps that it asks for."""
 
 import itertools
+import math
 import random
 import re
 
@@ -142,6 +143,42 @@ def test_a_grid_of_stated_size_is_covered():
         xs = {step[1]["x"] for step in steps}
         assert len(steps) == 2 * len(xs)
         assert [bool(calls) for *_rest, calls in steps] == [False] * (len(steps) - 1) + [True]
+
+
+def test_a_line_has_a_waypoint_behind_every_spacing():
+    source = "SubseaCableTrack | A waypoint each {spacing}. => Line length=param.max_dist spacing"
+    for _prompt, given, steps in samples(source):
+        points = [(step[1]["x"], step[1]["y"]) for step in steps]
+        gaps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
+        assert points[0] == tuple(given["start"]) and len(gaps) > 1
+        assert gaps == pytest.approx([given["max_dist"] / len(gaps)] * len(gaps), abs=0.03)
+
+
+def test_a_line_has_the_legs_that_the_text_counts():
+    source = "Transit | {length} {direction} of {P1}, 3 legs. => Line P1 length heading=direction"
+    for _prompt, _given, steps in samples(f"{source} count=3"):
+        points = [(step[1]["x"], step[1]["y"]) for step in steps]
+        gaps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
+        assert gaps == pytest.approx([gaps[0]] * 3, abs=0.03)
+
+
+def test_skills_and_stops_at_every_second_waypoint():
+    source = (
+        "SurveyTarget | The square, {time} at corners. => Square &GetThermalStats@odd"
+        " &LogEnvironmentState@even / StationKeep@even time"
+    )
+    for _prompt, given, steps in samples(source):
+        moves = [step for step in steps if step[0] == "GoToXY"]
+        assert [name for name, *_rest in steps] == ["GoToXY", "GoToXY", "StationKeep"] * 4
+        for _name, at, _filters, calls in moves:
+            away = {
+                abs(at["x"] - given["target_position"][0]) > 0.01,
+                abs(at["y"] - given["target_position"][1]) > 0.01,
+            }
+            at_corner = away == {True}
+            assert [call["name"] for call in calls] == [
+                "LogEnvironmentState" if at_corner else "GetThermalStats"
+            ]
 
 
 def test_an_offset_lies_in_the_named_direction():
