@@ -115,9 +115,12 @@ def test_data_that_are_asked_for_everywhere_and_gathered_once_are_named() -> Non
         ("drop a marker on it", "CreateMapMarker"),
         ("read the name on it", "OCRScanning"),
         ("log the environment sensors", "LogEnvironmentState"),
+        ("keep watching with the camera", "SetStreamRecording"),
     ],
 )
-def test_words_for_markers_names_and_the_environment_are_known(words: str, skill: str) -> None:
+def test_words_for_markers_names_cameras_and_the_environment_are_known(
+    words: str, skill: str
+) -> None:
     command = f"Go to [40, 20] and {words}."
     assert len(warned(command)) == 1
     assert warned(command, skill) == []
