@@ -20,7 +20,7 @@ from planner_ft.data.missions import missions_with_skills, sample_missions
 from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
-from planner_ft.data.unfamiliar import with_unfamiliar_words
+from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.pretraining.packs import IGNORE, Pack, arrays, draw_packs, packs_in
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text

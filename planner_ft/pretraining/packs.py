@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.data.missions import sample_missions
-from planner_ft.data.unfamiliar import with_unfamiliar_words
+from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.pretraining.views import view
 from planner_ft.prompts.render import end_of_turn_ids, prompt_frame
 from planner_ft.prompts.text import answer_text

@@ -5,7 +5,7 @@ from itertools import islice
 from random import Random
 from typing import Any
 
-from planner_ft.data.unfamiliar import unfamiliar_word, with_unfamiliar_words
+from planner_ft.data.varying import unfamiliar_word, with_unfamiliar_words
 from planner_ft.pretraining.corpus import Mixture, stream
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems

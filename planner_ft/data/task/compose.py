@@ -1,26 +1,117 @@
-"""Prompts put together from frames.jsonl: templates whose slots are filled with clauses of the
-phrase file, {M1} with a movement, {F1} with filters and {D1} with perception skills, in the form
-that the slot asks for (`ing`, `with`, `passive`, `each`).
+"""Prompts put together: clauses of the phrase file in the slots of frames.jsonl.
+
+A clause is a phrase bound to what it stands for, a skill or a movement of several steps
+(words.toml), so that it is drawn as templates are. A frame is a template with slots for clauses,
+{M1} a movement, {F1} filters and {D1} perception skills, in the form that the slot asks for
+(`ing`, `with`, `passive`, `each`). `number` tells the slots of the clauses of one prompt apart.
 """
 
 from __future__ import annotations
 
 import functools
 import itertools
+import re
+import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
+from typing import Any
 
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.clauses import WORDS, lead_clause, pattern_clause, skill_clause
-from planner_ft.data.task.context import Context
-from planner_ft.data.task.phrasebook import parse_phrase
-from planner_ft.data.task.prompts.binding import Bound
-from planner_ft.data.task.prompts.shapes import SHAPES
-from planner_ft.data.templates.grammar import Call, Chosen, Node, Nodes, Part, Slot, Step, all_slots
+from planner_ft.data.task.binding import XY, Bound, Source, bind
+from planner_ft.data.task.draw import Context
+from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase, phrase_text
+from planner_ft.data.task.shapes import SHAPES
+from planner_ft.data.task.values import draw_position
+from planner_ft.data.templates.grammar import (
+    Argument,
+    Call,
+    Chosen,
+    Node,
+    Nodes,
+    Part,
+    Slot,
+    Step,
+    TemplateError,
+    all_slots,
+)
 from planner_ft.data.templates.records import Template, read_templates
 from planner_ft.vocabulary.definition import Role
+
+WORDS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))
+_SLOT = re.compile(r"(?<=[{=?])[A-Za-z]\w*")
+
+
+def _template(book: Phrasebook, text: str, plan: str, number: int) -> tuple[Template, list[Any]]:
+    """A phrase as a template, and its slots, each with what it is called in the phrase."""
+    where, end = f"vocabulary {book.vocabulary.source}: phrase {text!r}", str(number or "")
+    text, plan = (_SLOT.sub(rf"\g<0>{end}", source) for source in (text, plan))
+    template = Template("", "train", text, plan, where)
+    keys = dict.fromkeys(slot.key for slot in all_slots(template.nodes) if not slot.sign)
+    return template, [(key, key.removesuffix(end)) for key in keys]
+
+
+@functools.cache
+def skill_clause(book: Phrasebook, name: str, phrase: str, ing: bool, number: int = 0) -> Bound:
+    """The phrase for this skill."""
+    entry = book.skills[name]
+    template, slots = _template(book, phrase_text(phrase, ing=ing), "", number)
+    bound = Bound(template, nodes=template.nodes, clause=True)
+    for key, own in slots:
+        draw = draw_position if own == XY else entry.draws[own]
+        several = own != XY and entry.skill.by_name[own].type == "texts"
+        bound.sources[key] = Source(draw, f"{name}.{own}", several)
+        bound.often[key] = entry.often.get(own, 1.0)
+    bound.steps = [Step(Call(name, tuple(Argument("slot", key, own) for key, own in slots)))]
+    return bound
+
+
+@functools.cache
+def lead_clause(book: Phrasebook, title: str, phrase: str, ing: bool) -> Bound:
+    """The task in its own words ("search for the barge"), with the skill that it asks for."""
+    entry = book.tasks[title]
+    template, slots = _template(book, phrase_text(phrase, ing=ing), "", 0)
+    bound = Bound(template, nodes=template.nodes, clause=True)
+    bound.sources = {key: Source(entry.draws[key], f"lead.{key}") for key, _own in slots}
+    if skill := entry.lead_skill:
+        argument = Argument("slot", skill["from"], skill["parameter"])
+        bound.steps = [Step(Call(skill["skill"], (argument,)))]
+    return bound
+
+
+@functools.lru_cache(maxsize=4096)
+def pattern_clause(
+    book: Phrasebook, title: str, pattern: str, phrase: str, ing: bool, number: int = 0
+) -> Bound | None:
+    """The phrase for a movement of several steps; None where task or vehicle lack what it needs."""
+    how = book.patterns.get(pattern, {}).get("how", ())
+    parts = {**WORDS["parts"].get(pattern, {}), "how": ("", _one_of(how))}
+    for name, texts in parts.items():
+        phrase = phrase.replace(f"{{{name}}}", _one_of(texts))
+    text = phrase_text(phrase, ing=ing)
+    try:
+        plan = WORDS["plans"][pattern].format_map(book.motions)
+        steps, _slash, _each = plan.partition(" / ")
+        plan = plan if "{wait" in text else steps
+        # Of the arguments "name=slot", those whose slot the phrase has.
+        words = ((word, word.rstrip(";").partition("=")[2]) for word in plan.split(" "))
+        held = (word for word, key in words if not key or re.search(rf"{{{key}\b", text))
+        template, slots = _template(book, text, " ".join(held), number)
+        bound = bind(template, book.vocabulary.task[title], book)
+    except (KeyError, TemplateError):
+        return None
+    bound.clause = True
+    for key, own in slots:
+        bound.sources[key] = bound.sources[key]._replace(place=f"{pattern}.{own}")
+    return bound
+
+
+def _one_of(texts: Sequence[str]) -> str:
+    return f"({'|'.join(texts)})" if len(texts) > 1 else "".join(texts)
+
+
+# ---------------------------------------------------------------- frames
 
 ROLES: dict[str, Role] = {"D": "perception", "F": "filter"}
 SAID = ("with", "passive")
@@ -75,7 +166,7 @@ class _Filler:
         self.context, self.rng, self.book = context, context.rng, context.book
         self.task, self.entry = context.task, context.entry
         self.clauses: dict[str, list[Bound]] = {}
-        self.kind, self.moves, self.number = "implied", 0, 0
+        self.kind, self.moves, self.numbers = "implied", 0, itertools.count()
         self.used: set[str] = set()
         lead = self.entry.lead if self.rng.random() < 0.8 else []
         self.lead = pick(lead, self.rng) if lead else ""
@@ -105,10 +196,9 @@ class _Filler:
         if isinstance(part, str):
             yield part
         elif part.key == STEP:
-            steps = (step for key in self.clauses if key[0] == "M" for step in self._of(key))
-            counted = list(steps)
-            long = any(step.each or step.call.name in SHAPES for step in counted)
-            yield "part" if long or len(counted) > self.moves else "step"
+            steps = [step for key in self.clauses if key[0] == "M" for step in self._of(key)]
+            long = any(step.each or step.call.name in SHAPES for step in steps)
+            yield "part" if long or len(steps) > self.moves else "step"
         else:
             clauses, each = self.clauses[part.key], "each" in part.options
             last = ". " if each else pick((" and ", " and ", ", and "), self.rng)
@@ -155,7 +245,7 @@ class _Filler:
         pause = self.book.patterns.get(name, {}).get("pause")
         if pause and self.rng.random() < PAUSE:
             phrase += pick(pause, self.rng)
-        ing, number = form == "ing", self._next()
+        ing, number = form == "ing", next(self.numbers)
         return pattern_clause(self.book, title, name, phrase, ing, number) if phrase else None
 
     def _skill(self, name: str, form: str) -> tuple[str, Bound]:
@@ -168,7 +258,7 @@ class _Filler:
         if own and self.rng.random() < 0.6:
             phrases = own
         phrase, ing = pick(phrases, self.rng), form == "ing"
-        clause = skill_clause(self.book, name, phrase, ing, self._next())
+        clause = skill_clause(self.book, name, phrase, ing, next(self.numbers))
         return entry.skill.motion or name, clause
 
     def _group(self, base: str, form: str) -> Iterator[Bound]:
@@ -195,8 +285,8 @@ class _Filler:
             for _ in range(count if every else 0)
         ]
         names = list(dict.fromkeys(drawn))
-        again = (name for name in names if base == "D" and book.skills[name].several)
-        names += [name for name in list(again) if rng.random() < AGAIN]
+        again = [name for name in names if base == "D" and book.skills[name].several]
+        names += [name for name in again if rng.random() < AGAIN]
         self.used.update(names)
         yield from (self._skill(name, form)[1] for name in names)
 
@@ -206,7 +296,3 @@ class _Filler:
         if not (repeat and repeats and self.rng.random() < REPEATED):
             return ()
         return (" ", *parse_phrase(pick(repeat, self.rng)))
-
-    def _next(self) -> int:
-        self.number += 1
-        return self.number - 1

@@ -17,8 +17,8 @@ from typing import Any
 
 from planner_ft.data.clauses import Beside
 from planner_ft.data.missions import missions_with_skills
+from planner_ft.data.task.binding import Bound, bind
 from planner_ft.data.task.phrasebook import phrasebook
-from planner_ft.data.task.prompts.binding import Bound, bind
 from planner_ft.data.task.steps import Plan, entry_of
 from planner_ft.data.templates.grammar import TemplateError, parse_plan
 from planner_ft.data.templates.records import Template

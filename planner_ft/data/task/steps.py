@@ -8,9 +8,9 @@ import functools
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
+from planner_ft.data.task.binding import XY, Bound
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.binding import XY, Bound
-from planner_ft.data.task.prompts.shapes import SHAPES
+from planner_ft.data.task.shapes import SHAPES
 from planner_ft.data.templates.grammar import Argument, Call
 from planner_ft.data.templates.grammar import Step as Pattern
 from planner_ft.facts.geometry import tidy

@@ -9,10 +9,9 @@ from typing import Any
 
 from planner_ft.data.missions import MissionSampler
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.context import Context
+from planner_ft.data.task.binding import binding, titles
+from planner_ft.data.task.draw import Context, draw_template
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.binding import binding, titles
-from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
 from planner_ft.support.errors import PlannerError

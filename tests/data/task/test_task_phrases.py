@@ -4,10 +4,9 @@ import random
 import re
 
 from planner_ft.data.numbers import bearing, duration, polygon, position, rotation
-from planner_ft.data.task.clauses import skill_clause
-from planner_ft.data.task.context import Context
+from planner_ft.data.task.compose import skill_clause
+from planner_ft.data.task.draw import Context, Drawing
 from planner_ft.data.task.phrasebook import gerund, phrasebook
-from planner_ft.data.task.prompts.draw import Drawing
 from planner_ft.data.templates.render import joined, plain, skeleton
 from planner_ft.data.wordlists import WordLists, made_up_name
 from planner_ft.vocabulary import load_vocabulary

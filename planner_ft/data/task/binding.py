@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from planner_ft.data.numbers import Value
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.shapes import SHAPES, value_draw
+from planner_ft.data.task.shapes import SHAPES, value_draw
 from planner_ft.data.task.values import Draw
 from planner_ft.data.templates.grammar import (
     Argument,

@@ -7,10 +7,9 @@ import re
 
 import pytest
 
-from planner_ft.data.task.context import Context
+from planner_ft.data.task.binding import bind, binding, titles
+from planner_ft.data.task.draw import Context, draw_template
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.prompts.binding import bind, binding, titles
-from planner_ft.data.task.prompts.draw import draw_template
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template, templates
 from planner_ft.data.templates.render import plain

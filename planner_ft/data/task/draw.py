@@ -1,18 +1,30 @@
-"""One sample from a bound template: values drawn, the text put together, the steps worked out."""
+"""One sample in the making, from a bound template: the task's parameters and which of their values
+the prompt has used, the template's values, the text put together, the steps worked out.
+"""
 
 from __future__ import annotations
 
 import itertools
 import re
+from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import Value, angle, count_text, length, pick, rotation
-from planner_ft.data.task.context import Context
-from planner_ft.data.task.prompts.binding import Bound, Source
-from planner_ft.data.task.prompts.shapes import DRAWS, SHAPES, grid_size, line_legs
+from planner_ft.data.task.binding import Bound, Source
+from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase
+from planner_ft.data.task.shapes import DRAWS, SHAPES, grid_size, line_legs
 from planner_ft.data.task.steps import Entry, Plan
-from planner_ft.data.templates.grammar import Argument, Call, Chosen, Slot, base_of, is_small
+from planner_ft.data.templates.grammar import (
+    Argument,
+    Call,
+    Chosen,
+    Slot,
+    base_of,
+    choose,
+    is_small,
+)
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
+from planner_ft.vocabulary.definition import Task
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
 REFER = 0.3  # share of values of a clause that stand in the task's parameters alone
@@ -22,6 +34,78 @@ _WAY = re.compile(
 )
 LEFT = (" to the left", " to port", " anticlockwise")
 RIGHT = (" to the right", " to starboard", " clockwise")
+
+
+UNRESOLVED = 0.05  # share of samples whose position is not known yet
+
+
+class Context:
+    """The task's values; one that fills a slot is used once, then the slot has its own values."""
+
+    def __init__(self, book: Phrasebook, task: Task, rng: Random) -> None:
+        self.book, self.task, self.rng = book, task, rng
+        self.entry = book.tasks[task.title]
+        self.values: dict[str, Value] = {}
+        self.used: set[str] = set()
+        for parameter in task.parameters:
+            if parameter.required or rng.random() < 0.75:
+                self.require(parameter.name)
+        if task.require_any and not any(name in self.values for name in task.require_any):
+            self.require(pick(task.require_any, rng))
+        place, share = task.position_parameter, UNRESOLVED / (1 if task.arrival == "self" else 2)
+        if place in self.values and rng.random() < share:
+            self.values[place] = Value(list(book.vocabulary.unresolved), "", "", "")
+
+    def require(self, name: str) -> Value:
+        """The task parameter's value, drawn now if the task has none yet."""
+        if name not in self.values:
+            self.values[name] = self.entry.draws[name](self.rng)
+        return self.values[name]
+
+    def unresolved(self, name: str | None) -> bool:
+        """Whether this is a position that is not known yet and so can only be referred to."""
+        return name in self.values and self.values[name].text == ""
+
+    def resolve(self, name: str | None) -> None:
+        """Make the position known, unless the prompt has referred to it already."""
+        if name and self.unresolved(name) and name not in self.used:
+            self.values[name] = self.entry.draws[name](self.rng)
+
+    def linked(self, place: str) -> str | None:
+        """The task parameter that fills this slot ("StationKeep.time") and has not been used up."""
+        name = self.entry.links.get(place)
+        return name if name in self.values and name not in self.used else None
+
+    def refer(self, name: str) -> str:
+        """Words for the task parameter's value."""
+        phrases = self.entry.refer[name]
+        if self.entry.unresolved and self.unresolved(name) and self.rng.random() < 0.7:
+            phrases = self.entry.unresolved
+        return self.say(pick(phrases, self.rng))
+
+    def say(self, phrase: str) -> str:
+        """A wording of a phrase without values of the plan."""
+        parts = choose(parse_phrase(phrase), self.rng, [])
+        pieces: list[PIECE] = [
+            (part, False) if isinstance(part, str) else (self.word(part.key), True)
+            for part in parts
+        ]
+        return joined(pieces, small=True)
+
+    def word(self, name: str) -> str:
+        """Text that is no value of the plan: the task parameter of that name, if the task has it,
+        else a number of [decor] or an entry of a word list.
+        """
+        known = self.values.get(name)
+        if known is not None and known.text:
+            return known.text
+        if name in self.book.decor:
+            return self.book.decor[name](self.rng).text
+        return self.book.lexicon.entry(name, self.rng)
+
+    def parameters(self) -> dict[str, Any]:
+        """The task's parameters as they stand in the record, in the order of the definition."""
+        return {name: self.values[name].value for name in self.task.by_name if name in self.values}
 
 
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
