@@ -24,7 +24,7 @@ from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.configurations import STRENGTHS, parse_configuration
 from planner_ft.decoding.constraints.grammar import MOST_STEPS, MOST_TASKS
-from planner_ft.decoding.constraints.steps import MOST_RUN, MOST_SAME
+from planner_ft.decoding.constraints.scripts import MOST_RUN, MOST_SAME
 from planner_ft.decoding.engine import Engine, decoding_threads
 from planner_ft.support.files import compact_json, read_jsonl, sha256_text, write_json
 from planner_ft.support.manifest import build_manifest

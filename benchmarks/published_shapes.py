@@ -25,8 +25,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from real_shape import random_model
 
 from planner_ft.candidates import resolve_candidate
-from planner_ft.candidates.memory import memory_summary
-from planner_ft.candidates.times import expected_times
+from planner_ft.candidates.costs import expected_times, memory_summary
 from planner_ft.support.files import read_json, write_json
 from planner_ft.support.manifest import build_manifest
 

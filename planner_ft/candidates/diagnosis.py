@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import planner_ft
 from planner_ft.candidates import loading
+from planner_ft.candidates.costs import GIB, device_memory, expected_times, memory_summary
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_cache
-from planner_ft.candidates.memory import GIB, device_memory, memory_summary
 from planner_ft.candidates.packing import set_packing
 from planner_ft.candidates.registry import Candidate, all_candidates
-from planner_ft.candidates.times import expected_times
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.manifest import hardware, library_versions, source_commit

@@ -20,7 +20,7 @@ from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
-from planner_ft.decoding.constraints.steps import STEP_OPENS
+from planner_ft.decoding.constraints.scripts import STEP_OPENS
 from planner_ft.decoding.forward import SmallModel, read_forms
 from planner_ft.decoding.generate import Generation, Method, Query
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans

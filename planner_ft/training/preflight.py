@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from planner_ft.candidates.costs import adapter_parameters, device_memory, training_memory
 from planner_ft.candidates.loading import compute_dtype, load_tokenizer, resolve_device
-from planner_ft.candidates.memory import adapter_parameters, device_memory, training_memory
 from planner_ft.prompts import end_of_turn_ids
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder, writing

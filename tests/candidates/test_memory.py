@@ -9,8 +9,7 @@ import pytest
 import torch
 
 from planner_ft.candidates import all_candidates, resolve_candidate
-from planner_ft.candidates.loading import load_model
-from planner_ft.candidates.memory import (
+from planner_ft.candidates.costs import (
     GIB,
     adapter_parameters,
     block_activations,
@@ -18,6 +17,7 @@ from planner_ft.candidates.memory import (
     stored_weights,
     training_memory,
 )
+from planner_ft.candidates.loading import load_model
 
 PUBLISHED = [candidate for candidate in all_candidates() if candidate.published]
 

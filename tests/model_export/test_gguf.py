@@ -17,8 +17,14 @@ import torch
 from planner_ft.candidates import resolve_candidate
 from planner_ft.data.missions import sample_missions
 from planner_ft.model_export import Exported, ExportSettings, export
-from planner_ft.model_export.gguf_file import _rope_factors, check_architecture
-from planner_ft.model_export.gguf_tokens import Kind, TokenTable, check_ids, token_table
+from planner_ft.model_export.gguf_file import (
+    Kind,
+    TokenTable,
+    _rope_factors,
+    check_architecture,
+    check_ids,
+    token_table,
+)
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json
 

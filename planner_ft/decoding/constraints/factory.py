@@ -9,11 +9,9 @@ from typing import Any
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints.answer import Answer
 from planner_ft.decoding.constraints.grammar import SKILL_OPENS, Values, key, mission_opens, name_of
-from planner_ft.decoding.constraints.grounded import GroundedValues
+from planner_ft.decoding.constraints.grounded import LONGEST_WORD, GroundedValues
 from planner_ft.decoding.constraints.patterns import DECIMALS, WHOLE_DIGITS
-from planner_ft.decoding.constraints.spans import LONGEST_WORD
-from planner_ft.decoding.constraints.state import MissionScript
-from planner_ft.decoding.constraints.steps import TaskScript
+from planner_ft.decoding.constraints.scripts import MissionScript, TaskScript
 from planner_ft.decoding.constraints.tokens import Tokens, tokens_of
 from planner_ft.decoding.constraints.waypoints import Waypoints, read_waypoints
 from planner_ft.support.errors import PlannerError

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.constraints.grammar import Grammar
-from planner_ft.decoding.constraints.spans import MOST_WORDS, Spans
+from planner_ft.decoding.constraints.grounded import MOST_WORDS, Spans
 from planner_ft.support.files import compact_json
 
 
