@@ -129,48 +129,39 @@ def load_model(
     *,
     device: str = "auto",
     quantization: Quantization = "nf4",
-    adapter: Path | None = None,
     trainable: bool = False,
-    level: Level | None = None,
     vocabulary: Vocabulary | None = None,
     adapters: Mapping[Level, Path] | None = None,
 ) -> PreTrainedModel:
     """The candidate's model in eval mode, to generate or, with `trainable`, to train an adapter.
 
     "nf4" stores linear layers as 4-bit NormalFloat with double quantisation; embeddings, output
-    head and norms stay in the compute dtype, as everything does with "none". With `adapter` the
-    result is a PeftModel, and the adapter is checked first, against `level` and `vocabulary` too
-    where they are given. `adapters` are several on one base, named by their levels, to be changed
-    with `set_adapter`. With `trainable` the 4-bit layers never pack (see `packing`). Raises
+    head and norms stay in the compute dtype, as everything does with "none". With `adapters` the
+    result is a PeftModel with these on one base, named by their levels, to be changed with
+    `set_adapter`; they are checked first, against `vocabulary` too where it is given. With `trainable` the 4-bit layers never pack (see `packing`). Raises
     PlannerError when anything is missing, unsafe, corrupt, of another base or too large.
     """
     target, folder = resolve_device(device), require_folder(candidate)
-    if adapter is not None:
-        check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
-    for its_level, path in (adapters or {}).items():
-        check_adapter(path, candidate, level=its_level, vocabulary=vocabulary)
+    for level, path in (adapters or {}).items():
+        check_adapter(path, candidate, level=level, vocabulary=vocabulary)
     quiet_libraries()
     with _loading_errors(candidate, folder, target):
         model = _load_base(folder, target, quantization)
-        named = {"default": adapter} if adapter else {}
-        named |= {str(its_level): path for its_level, path in (adapters or {}).items()}
-        if named:
-            model = _attach(model, named, trainable)
+        if adapters:
+            model = _attach(model, adapters)
     if quantization == "nf4":
         set_packing(model, allowed=not trainable)
     return model.eval()
 
 
-def _attach(model: Any, adapters: Mapping[str, Path], trainable: bool) -> Any:
+def _attach(model: Any, adapters: Mapping[Level, Path]) -> Any:
     """A PeftModel with these adapters by name, the first of them active."""
     from peft import PeftModel
 
-    options = {"is_trainable": trainable, "use_safetensors": True}
-    for name, adapter in adapters.items():
-        if isinstance(model, PeftModel):
-            model.load_adapter(str(adapter), name, **options)
-        else:
-            model = PeftModel.from_pretrained(model, str(adapter), name, **options)
+    first, *others = adapters.items()
+    model = PeftModel.from_pretrained(model, str(first[1]), first[0], use_safetensors=True)
+    for name, adapter in others:
+        model.load_adapter(str(adapter), name, use_safetensors=True)
     return model
 
 

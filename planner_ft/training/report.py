@@ -77,19 +77,12 @@ class Silence(Report):
     """The report of a process that another one speaks for."""
 
     def __init__(self) -> None:
-        pass
+        """Open nothing."""
 
-    def record(self, values: Record) -> None:
-        pass
+    def silent(self, *_values: Any, **_named: Any) -> None:
+        """Say nothing."""
 
-    def step(self, record: Record, total: int, seconds_left: float, peak: int) -> None:
-        pass
-
-    def note(self, text: str) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
+    record = step = note = close = silent
 
 
 def read_log(path: Path) -> list[Record]:

@@ -110,9 +110,8 @@ def test_every_candidate_computes_what_the_libraries_compute(
     adapters: dict[Level, Path] = {"mission": save_adapter(candidate, tmp_path)}
     forms = read(candidate, adapters, quantization=quantization)
     assert forms is not None and set(forms) == {None, "mission"}
-    model: Any = load_model(
-        candidate, device="cpu", quantization=quantization, adapter=tmp_path, trainable=True
-    )
+    settings: Any = {"quantization": quantization, "adapters": adapters, "trainable": True}
+    model: Any = load_model(candidate, device="cpu", **settings)
     ids = torch.tensor([IDS])
     adapted = model(input_ids=ids).logits[0]
     with model.disable_adapter():
