@@ -2,7 +2,7 @@
 precision, and a GGUF file.
 
 `run.export` does it: `merge` folds the adapter in, `check` compares answers before and after,
-`gguf_tokens` and `gguf_file` write the model as llama.cpp reads it.
+`gguf_file` writes the model as llama.cpp reads it.
 """
 
 from planner_ft.model_export.run import Exported, ExportSettings, export
