@@ -29,13 +29,51 @@ Beside = tuple[str, str, dict[str, Any]]
 
 @dataclass
 class Effect:
-    """What a clause adds to a plan: constraints, and by the task's place a sentence of its prompt
-    with the skill that it stands for. `about`: the kinds of limits and the skills in it.
+    """What a clause adds to the `planned` tasks: constraints, and by the task's place a sentence of
+    its prompt with the skill that it stands for. `about`: the kinds of limits and the skills in it.
     """
 
+    planned: Sequence[Planned]
     about: set[str] = field(default_factory=set)
     constraints: list[str] = field(default_factory=list)
     sentences: list[tuple[int, str, Beside | None]] = field(default_factory=list)
+
+    def moving(self) -> list[int]:
+        """The places of the tasks in which the vehicle moves or holds a place."""
+        tasks = enumerate(item.task for item in self.planned)
+        return [at for at, task in tasks if task.arrival != "none" or task.pattern != "hold"]
+
+    def add(self, places: Sequence[int], text: str, beside: Beside | None = None) -> None:
+        """A sentence for the tasks at these places."""
+        self.sentences += [(place, text, beside) for place in places]
+
+    def limit(
+        self, vocabulary: Vocabulary, kind: str, given: dict[str, Any], own: Sequence[int] = ()
+    ) -> bool:
+        """Add a limit; whether it fits. One of the tasks at the places `own` alone names their
+        titles, which no other task may have. Raises TemplateError where a value is missing.
+        """
+        planned, places, titles = self.planned, self.moving(), list[str]()
+        if given.pop("scope", "mission") == "task":
+            titles = [planned[place].task.title for place in own]
+            others = (item for place, item in enumerate(planned) if place not in own)
+            if any(item.task.title in titles for item in others):
+                return False
+            places = [place for place in places if place in own]
+        limits = load_limits(vocabulary)
+        rule = limits[kind]
+        if not any(set(slots(form)) <= given.keys() for form in rule.sentences):
+            raise TemplateError(f"{kind} needs {' and '.join(slots(rule.sentences[-1]))}")
+        self.about.add(kind)
+        self.constraints.append(sentence(kind, given, limits, titles))
+        values = {name: given[value] for name, value in rule.parameters.items()}
+        if kind == "return":
+            places = [place for place in places if planned[place].intent.home]
+        elif kind == "duration" and not titles:
+            places = []
+        beside = ("filter", rule.filter, values) if rule.filter else None
+        self.add(places, prompt_sentence(kind, given, limits), beside)
+        return True
 
 
 class Clause(Drawing):
@@ -59,12 +97,12 @@ class Clause(Drawing):
         """What the clause adds to a plan of which it covers the tasks at these places; None where
         it does not fit. `alone`: these tasks are one thing that was asked for.
         """
-        effect, titles = Effect(), frozenset(self.template.tasks)
+        effect, titles = Effect(planned), frozenset(self.template.tasks)
         asked = [at for at in sorted(covered) if not planned[at].inserted]
         own = [at for at in asked if not planned[at].intent.home]
         if titles and titles.isdisjoint(planned[at].task.title for at in own):
             return None
-        limits, places = load_limits(self.vocabulary), moving(planned)
+        limits, places = load_limits(self.vocabulary), effect.moving()
         for call in (step.call for step in self.template.steps):
             if call.label and call.label not in self.labels:
                 continue
@@ -72,78 +110,35 @@ class Clause(Drawing):
             if given.get("scope", "mission") != "mission" and not alone:
                 return None
             if call.name in limits:
-                fits = limit(self.vocabulary, call.name, given, planned, own, effect)
+                fits = effect.limit(self.vocabulary, call.name, given, own)
             else:
-                fits = self._demand(call.name, given, planned, covered, effect)
-            if not fits:
-                return None
-            if not places:
+                fits = self._demand(effect, call.name, given, covered)
+            if not (fits and places):
                 return None
         for text in self.remarks()[0]:
             effect.constraints.append(text)
-            effect.sentences += [(place, text, None) for place in places]
+            effect.add(places, text)
         return effect
 
-    def _demand(
-        self,
-        name: str,
-        given: dict[str, Any],
-        planned: Sequence[Planned],
-        covered: set[int],
-        effect: Effect,
-    ) -> bool:
-        """Whether a demand fits a task; if so, the effect has it."""
+    def _demand(self, effect: Effect, name: str, given: dict[str, Any], covered: set[int]) -> bool:
+        """Add a demand; whether it fits a task."""
         titles, scope = self.template.tasks, given.pop("scope", "mission")
         places = []
-        for place in moving(planned):
-            task, home = planned[place].task, planned[place].intent.home
-            transit = task.title == self.vocabulary.transit
-            fits = name in task.skills.get("perception", ())
-            if scope == "home":
-                fits = home
-            elif scope == "way":
-                fits = place in covered and transit and not home
-            elif scope == "task":
-                fits = place in covered and not planned[place].inserted and (fits or transit)
-            if fits and (not titles or task.title in titles):
+        for place in effect.moving():
+            item, own = effect.planned[place], place in covered
+            transit, home = item.task.title == self.vocabulary.transit, item.intent.home
+            able = name in item.task.skills.get("perception", ())
+            fits = {
+                "mission": able,
+                "home": home,
+                "way": own and transit and not home,
+                "task": own and not item.inserted and (able or transit),
+            }
+            if fits[scope] and (not titles or item.task.title in titles):
                 places.append(place)
-        text, beside = demanded(name, given, self.sampler)
         effect.about.add(name)
-        effect.sentences += [(place, text, beside) for place in places]
+        effect.add(places, *demanded(name, given, self.sampler))
         return bool(places)
-
-
-def limit(
-    vocabulary: Vocabulary,
-    kind: str,
-    given: dict[str, Any],
-    planned: Sequence[Planned],
-    own: Sequence[int],
-    effect: Effect,
-) -> bool:
-    """Whether a limit fits; if so, the effect has it. One of the tasks at the places `own`
-    alone names their titles, which no other task may have.
-    """
-    limits, places, titles = load_limits(vocabulary), moving(planned), list[str]()
-    if given.pop("scope", "mission") == "task":
-        titles = [planned[place].task.title for place in own]
-        others = (item for place, item in enumerate(planned) if place not in own)
-        if any(item.task.title in titles for item in others):
-            return False
-        places = [place for place in places if place in own]
-    if not any(set(slots(form)) <= given.keys() for form in limits[kind].sentences):
-        raise TemplateError(f"{kind} needs {' and '.join(slots(limits[kind].sentences[-1]))}")
-    effect.about.add(kind)
-    effect.constraints.append(sentence(kind, given, limits, titles))
-    text, rule = prompt_sentence(kind, given, limits), limits[kind]
-    values = {name: given[value] for name, value in rule.parameters.items()}
-    beside = ("filter", rule.filter, values) if rule.filter else None
-    if kind == "return":
-        places = [place for place in places if planned[place].intent.home]
-    elif kind == "duration" and not titles:
-        places = []
-    effect.sentences += [(place, text, beside) for place in places]
-    return True
 
 
 def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple[str, Beside]:
@@ -156,12 +151,6 @@ def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple
             given[parameter.name] = [value]
         text = text.replace(f"{{{parameter.name}}}", str(value))
     return f"{text} {where}".rstrip() + ".", (skill.role, name, given)
-
-
-def moving(planned: Sequence[Planned]) -> list[int]:
-    """The places of the tasks in which the vehicle moves or holds a place."""
-    tasks = enumerate(item.task for item in planned)
-    return [at for at, task in tasks if task.arrival != "none" or task.pattern != "hold"]
 
 
 def bind_clause(template: Template, sampler: MissionSampler) -> Bound:

@@ -9,7 +9,7 @@ from operator import itemgetter
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.clauses import Beside, Clause, Effect, demanded, limit
+from planner_ft.data.clauses import Beside, Clause, Effect, demanded
 from planner_ft.data.drawing import Drawing
 from planner_ft.data.mission_binding import CLAUSE
 from planner_ft.data.mission_plan import Intent, Target, label
@@ -88,14 +88,14 @@ class Composer:
                 for call in line.demands:
                     if not call.label or call.label in drawing.labels:
                         given = {argument.name: argument.value for argument in call.arguments}
-                        text, skill = demanded(call.name, given, self.sampler)
-                        effect = Effect({call.name}, [], [(place, text, skill) for place in places])
+                        effect = Effect(self.planned, {call.name})
+                        effect.add(places, *demanded(call.name, given, self.sampler))
                         self.effects.append((BODY, number, effect))
             for call in drawing.bound.limits:
                 if not call.label or call.label in drawing.labels:
-                    own, given = Effect(), drawing.given(call)
-                    limit(drawing.vocabulary, call.name, given, self.planned, [], own)
-                    self.effects.append((BODY, number, own))
+                    effect = Effect(self.planned)
+                    effect.limit(drawing.vocabulary, call.name, drawing.given(call))
+                    self.effects.append((BODY, number, effect))
 
     def _fill_slots(self) -> None:
         for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
