@@ -144,3 +144,12 @@ def test_what_is_there_twice_is_compared_once() -> None:
     plan = document([to(1, 2)], constraints=["Take care.", "Take care."])
     assert said(plan, {"kind": "constraint", "at": 0}) == []
     assert said(plan, {"kind": "remove", "task": "t1"}) == [f"Transit (t1): removed{ADA}"]
+
+
+def test_each_parameter_of_a_task_has_the_one_who_changed_it() -> None:
+    orbit = task("PerformOrbit", {"center": [1, 2], "radius": 20}, None, "Circle it.")
+    edits = (value("t1", "radius", 30, by="Bo"), value("t1", "arc", 90))
+    assert said(document([orbit]), *edits) == [
+        "task 1, PerformOrbit: radius 20 -> 30, changed by Bo",
+        f"task 1, PerformOrbit: arc nothing -> 90{ADA}",
+    ]

@@ -10,14 +10,14 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.configurations import Strength
-from planner_ft.decoding.constraints.factory import least_limit
+from planner_ft.decoding.constraints.factory import least_limit, reserve
 from planner_ft.prompts.text import completion_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import load_vocabulary
 from tests.values import changeable
 
-from .conftest import answer_ids, make_factory
+from .conftest import allowed, answer_ids, make_factory
 
 USV = load_vocabulary()
 Skill = tuple[str, dict[str, Any]]
@@ -224,6 +224,18 @@ def test_a_limit_that_is_too_small_is_one_sentence(embedded: Any) -> None:
     )
     with pytest.raises(PlannerError, match=f"--max-new-tokens {least - 1}: "):
         make_factory(embedded, "mission", USV, "state", limit=least - 1)
+
+
+def test_the_last_tokens_of_the_limit_close_what_is_open(embedded: Any) -> None:
+    factory = make_factory(embedded, "mission", USV, "schema")
+    begun = answer_ids(embedded, mission(CHECK, prompts="x y " * 40).partition(' "}]')[0])
+    (quote,) = answer_ids(embedded, '"')
+    kept = reserve("mission", USV) + len(begun)
+    for limit, closing in ((kept, True), (kept + 1, False)):
+        answer = factory.start({"prompt": "x"}, limit)
+        for token in begun:
+            answer.accept(token)
+        assert (allowed(answer.mask()) == [quote]) is answer.cut is closing
 
 
 def test_with_a_number_of_entries_an_answer_has_no_more_and_no_logic(embedded: Any) -> None:
