@@ -11,9 +11,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from planner_ft.simulation.asked import reach
 from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.fast import Floats
-from planner_ft.simulation.outlines import reach
 from planner_ft.simulation.skill import Job
 from planner_ft.simulation.world import PILE
 from planner_ft.support.errors import PlannerError
