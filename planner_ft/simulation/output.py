@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from collections import Counter
 from dataclasses import asdict
@@ -14,7 +13,7 @@ from planner_ft.simulation.measures import METRICS, RunResult, summary
 from planner_ft.simulation.mission_report import report_texts
 from planner_ft.simulation.run import MANIFEST, RESULTS, Simulated
 from planner_ft.simulation.world import PILE
-from planner_ft.support.files import write_json, write_text
+from planner_ft.support.files import read_csv, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Cell, Table, csv_table, figure, markdown_table, row
 
@@ -129,8 +128,7 @@ def cell(name: str, value: Estimate) -> Cell:
 
 def published_missions() -> list[dict[str, str]]:
     """The lines of published.csv."""
-    with open(PUBLISHED, encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream))
+    return read_csv(PUBLISHED)
 
 
 def _published(done: Simulated, narrow: bool) -> list[dict[str, str]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
@@ -20,7 +19,14 @@ from planner_ft.skills.tracker import Guidance
 from planner_ft.skills.tracking_bench import tracking_table
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, make_folder, read_json, write_json, write_text
+from planner_ft.support.files import (
+    compact_json,
+    make_folder,
+    read_csv,
+    read_json,
+    write_json,
+    write_text,
+)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, csv_table, figure, markdown_table, row
 from planner_ft.support.terminal import Report
@@ -193,10 +199,8 @@ def _row(name: str, episodes: Sequence[Episode], seed: int) -> TableRow:
 def _published() -> dict[str, list[dict[str, str]]]:
     """Lines of published.csv by policy."""
     found: dict[str, list[dict[str, str]]] = {}
-    path = Path(__file__).with_name("published.csv")
-    with open(path, encoding="utf-8", newline="") as stream:
-        for line in csv.DictReader(stream):
-            found.setdefault(line["policy"], []).append(line)
+    for line in read_csv(Path(__file__).with_name("published.csv")):
+        found.setdefault(line["policy"], []).append(line)
     return found
 
 

@@ -12,10 +12,10 @@ from collections.abc import Callable
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 from shapely import affinity
 
-Floats = NDArray[np.float64]
+from planner_ft.simulation.fast import Floats
+
 POINTS = 150
 RADIUS = (3.0, 10.0)
 Draw = Callable[[np.random.Generator], shapely.Polygon]

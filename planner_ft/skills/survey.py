@@ -18,10 +18,11 @@ import shapely
 import torch
 from torch import Tensor
 
+from planner_ft.simulation.fast import Floats
 from planner_ft.skills import geometry
 from planner_ft.skills.dynamics import CURRENT, Dynamics, turned
 from planner_ft.skills.option import Before, Compiled, Way, advance, judge
-from planner_ft.skills.shapes import POINTS, RADIUS, Floats, draw_outline, offset_path
+from planner_ft.skills.shapes import POINTS, RADIUS, draw_outline, offset_path
 from planner_ft.skills.tracker import Tracker
 
 OPTION = 15

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from planner_ft.benchmark.statistics import bootstrap_mean, wilson
 from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Running, Stage
-from planner_ft.simulation.fast import FastSimulator
+from planner_ft.simulation.fast import Bools, FastSimulator, Floats
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job
 from planner_ft.simulation.world import World
@@ -65,12 +64,9 @@ def tracking_table(request: SkillBench, policies: Sequence[Policy], report: Repo
     return Table("", COLUMNS[skill], rows, name=skill, caption=CAPTION)
 
 
-Floats = NDArray[np.float64]
-
-
 def measure(
     request: SkillBench, settings: dict[str, Any], factor: float
-) -> tuple[NDArray[np.bool_], Floats, Floats]:
+) -> tuple[Bools, Floats, Floats]:
     """Which episodes came to their end, and two figures of each (n,)."""
     hold, count = request.skill == "hold", request.episodes
     random = np.random.default_rng([request.seed, 17])
@@ -120,9 +116,7 @@ def _scene(count: int, hold: bool, factor: float, seed: int, random: np.random.G
     return Scene(world, FastSimulator(vessel, count), starts, Origin(0.0, 0.0), lambda _r, _l: None)
 
 
-def _row(
-    name: str, arrived: NDArray[np.bool_], first: Floats, second: Floats, seed: int
-) -> TableRow:
+def _row(name: str, arrived: Bools, first: Floats, second: Floats, seed: int) -> TableRow:
     rate = wilson(int(arrived.sum()), len(arrived))
     means = (bootstrap_mean(one.tolist(), range(len(one)), seed) for one in (first, second))
     return row(name, rate.cell(scale=100, decimals=0), *(one.cell() for one in means))
