@@ -1,5 +1,6 @@
-"""Missing answers and timed queries are made, by processes that share a run, and all scored; and the
-time to plan missions of 1 to 10 tasks with both agents is measured, not added up.
+"""Missing answers and timed queries are made, by processes that share a run, and all scored.
+
+The time to plan missions of 1 to 10 tasks with both agents is measured, not added up.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ class Slots:
                 raise PlannerError(f"{flag} {value}: {problem}")
 
     def _given(self) -> Iterator[tuple[str, str, str, str]]:
-        """The flag, value, and usual value of each slot, and the table that names what is learnt."""
+        """The flag, value and usual value of each slot, and the table of what is learnt."""
         yield "--goto", self.goto, GUIDANCE, "skill"
         yield "--survey", self.survey, WAYPOINTS, "task"
 

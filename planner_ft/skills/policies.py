@@ -1,6 +1,6 @@
-"""The files of a skill: a policy's frozen weights as safetensors with what they are for, a card and a
-manifest; and while it is trained, checkpoints from which a killed training goes on with the same
-losses.
+"""The files of a skill: a policy's frozen weights as safetensors with what they are for, a card and
+a manifest, and while it is trained the checkpoints of a killed training, which goes on with the
+same losses.
 """
 
 from __future__ import annotations
@@ -97,14 +97,10 @@ def write_policy(
     write_text(folder / CARD, shown + "\n")
 
 
+@functools.cache
 def read_policy(skill: str, folder: Path | None = None) -> Policy:
     """The policy in a folder, or the one that ships. Raises PlannerError."""
-    return _read(skill, folder or SHIPPED / skill)
-
-
-@functools.cache
-def _read(skill: str, folder: Path) -> Policy:
-    path = folder / WEIGHTS
+    path = (folder or SHIPPED / skill) / WEIGHTS
     if not path.is_file():
         way = "give a folder that `plannerft skill train` wrote"
         raise PlannerError(f"{path}: is not there; {way}")
