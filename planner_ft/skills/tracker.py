@@ -1,5 +1,5 @@
-"""Who drives to a goal: the policies of GoToXY and StationKeep, which make two speeds of six numbers
-of the goal, and guidance beside them.
+"""Who drives to a goal: the policies of GoToXY and StationKeep, which make two speeds of six
+numbers of the goal, and guidance beside them.
 """
 
 from __future__ import annotations
