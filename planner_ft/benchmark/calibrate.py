@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.folder import PREDICTIONS, RUN, Progress, records_by_key
+from planner_ft.benchmark.folder import PREDICTIONS, RUN, records_by_key
 from planner_ft.benchmark.metrics.confidence import confidence_figures
 from planner_ft.benchmark.metrics.values import agreeing_keys, parameters_agree
 from planner_ft.benchmark.runner import run_bench
@@ -23,6 +23,7 @@ from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -45,7 +46,7 @@ class Judged:
 
 
 def calibrate(
-    level: Level, data: Sequence[Path], out: Path, progress: Progress = silent, **named: Any
+    level: Level, data: Sequence[Path], out: Path, progress: Report = silent, **named: Any
 ) -> tuple[Path, dict[str, Any]]:
     """Calibrate an agent on files of validation data and write the calibration beside its adapter,
     or in its candidate's folder; returns the file and the figures of `manifest`. `named` are those

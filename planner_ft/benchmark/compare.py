@@ -118,8 +118,11 @@ def compare_runs(settings: CompareSettings) -> Report:
             one = paired(metric, first.scores, second.scores, settings.seed)
             found.append((first.name, second.name, one))
     data = tuple(runs[path].data for path in settings.runs)
-    level, notes = runs[settings.runs[0]].level, _notes(data, pairs, settings.asked)
-    return Report(settings, level, data, tuple(adjusted(found)), notes)
+    files = len({str(one.get("sha256")) for one in data})
+    about = {"files": files, "pairs": pairs, "metrics": settings.asked}
+    named = {one.name: one for pair in pairs for one in pair}
+    lacks = tuple(_said("lacks", rows=named.values(), **about))
+    return Report(settings, runs[settings.runs[0]].level, data, tuple(adjusted(found)), lacks)
 
 
 def run_rows(path: Path, results: Results) -> list[RunRow]:
@@ -188,17 +191,10 @@ def _named(rows: Sequence[RunRow], text: str) -> RunRow:
     return matching[0]
 
 
-def _notes(
-    data: Sequence[dict[str, Any]], pairs: Sequence[tuple[RunRow, RunRow]], metrics: list[Metric]
-) -> tuple[str, ...]:
-    """What the runs lack (templates/comparison.txt.j2)."""
-    text = text_template("planner_ft.benchmark", "comparison.txt.j2").render(
-        files=len({str(one.get("sha256")) for one in data}),
-        rows={one.name: one for pair in pairs for one in pair}.values(),
-        pairs=pairs,
-        metrics=metrics,
-    )
-    return tuple(dict.fromkeys(filter(str.strip, text.split("\n"))))
+def _said(part: str, **about: Any) -> list[str]:
+    """The notes of a part of templates/comparison.txt.j2."""
+    text = text_template("planner_ft.benchmark", "comparison.txt.j2").render(part=part, **about)
+    return [*dict.fromkeys(filter(str.strip, text.split("\n")))]
 
 
 def render_report(report: Report) -> dict[str, str]:
@@ -233,14 +229,8 @@ def notes(report: Report) -> list[str]:
     """What a reader must know to read the comparison rightly."""
     count = sum(comparison.p_adjusted is not None for comparison in report.comparisons)
     families = max((comparison.paired.families for comparison in report.comparisons), default=0)
-    return [
-        f"Paired by sample, whole phrasing families kept together ({families} families at most)."
-        f" {EXPLAINED}.",
-        "Differences: this minus against, 95 % bootstrap intervals. p: families swapped at random"
-        " (for rates of independent samples the exact McNemar test), adjusted for the"
-        f" {count} comparisons of this table. Seed {report.settings.seed}.",
-        *report.notes,
-    ]
+    how = {"count": count, "families": families, "seed": report.settings.seed}
+    return [*_said("how", explained=EXPLAINED, **how), *report.notes]
 
 
 def _tables(report: Report, *, raw: bool = True) -> list[Table]:

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.benchmark.paired import EXPLAINED, Comparison, Score, adjusted, holm, p_text, paired
+from planner_ft.support.templates import text_template
 
 Question = Literal["configuration", "best", "baseline"]
 """configuration: a model's configurations with its first one, enforced ones with the free one of
@@ -114,27 +115,22 @@ def marks(found: Contrasts) -> dict[tuple[str, str], str]:
 
 def legend(found: Contrasts) -> list[str]:
     """The meaning of the marks that a table has."""
-    lines = []
-    if found["configuration"]:
-        reference = "the model's first configuration (enforced with free)"
-        lines.append(f"Marks, paired by sample with {reference}: {EXPLAINED}.")
-    if found["best"]:
-        tests = "same tests, adjusted for all models and metrics"
-        lines.append(f"{BEST}: the best of its column, or not shown to be worse ({tests}).")
-    return lines
+    return _said("legend", found=found, explained=EXPLAINED, best=BEST)
 
 
 def baseline_sentences(found: Contrasts) -> dict[str, str]:
     """By system: the baselines that it beats, and those that it is not shown to beat."""
-    sentences = {}
-    for name in dict.fromkeys(one.second for one in found["baseline"]):
-        comparisons = [one for one in found["baseline"] if one.second == name]
-        beaten = _listed([one for one in comparisons if one.verdict == "better"])
-        others = _listed([one for one in comparisons if one.verdict != "better"])
-        parts = [f"beats {beaten}"] if beaten else []
-        parts += [f"is not shown to beat {others}"] if others else []
-        sentences[name] = f"{', but '.join(parts)}."
-    return sentences
+    by_system: dict[str, list[Comparison]] = {}
+    for one in found["baseline"]:
+        by_system.setdefault(one.second, []).append(one)
+    return {name: _said("baseline", ones=ones)[0] for name, ones in by_system.items()}
+
+
+def _said(part: str, **about: Any) -> list[str]:
+    """The sentences of a part of templates/contrasts.txt.j2."""
+    template = text_template("planner_ft.benchmark", "contrasts.txt.j2")
+    shown = {"part": part, "p_text": p_text, "named": baseline_name, **about}
+    return [*filter(str.strip, template.render(shown).split("\n"))]
 
 
 def contrast_notes(found: Contrasts, baseline_notes: Sequence[str] = ()) -> list[str]:
@@ -146,15 +142,6 @@ def contrast_notes(found: Contrasts, baseline_notes: Sequence[str] = ()) -> list
 def baseline_name(name: str) -> str:
     """A baseline without its configuration."""
     return name.removesuffix(" baseline")
-
-
-def _listed(comparisons: Sequence[Comparison]) -> str:
-    """Baselines with the metrics in brackets."""
-    by_first: dict[str, list[str]] = {}
-    for one in comparisons:
-        text = f"{one.paired.metric.replace('_', ' ')}: p {p_text(one.p_adjusted)}"
-        by_first.setdefault(baseline_name(one.first), []).append(text)
-    return " and ".join(f"the {name} ({', '.join(found)})" for name, found in by_first.items())
 
 
 def changes(scores: Iterable[Mapping[str, Any]], seed: int) -> list[dict[str, Any]]:

@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.folder import Progress
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.decoding.configurations import parse_configuration
 from planner_ft.support.errors import GateError, PlannerError
 from planner_ft.support.files import read_toml
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.plans import check_level
 
 Kind = type | list[type]
@@ -118,7 +118,7 @@ def load_gate(path: Path) -> Gate:
 
 
 def run_gate(
-    gate: Gate, out: Path, progress: Progress, show: Callable[[Results], Any], **changes: Any
+    gate: Gate, out: Path, progress: Report, show: Callable[[Results], Any], **changes: Any
 ) -> Results:
     """Run the gate into `out`; `show` gets the results. Raises GateError for a low figure."""
     results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)

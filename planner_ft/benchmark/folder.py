@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ from planner_ft.benchmark.results import Measured, Results, System
 from planner_ft.benchmark.tables import render_tables
 from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.plans import check_level
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ ALL = (*SCORED, PREDICTIONS, LATENCY, PLANNING, RUN)
 OTHER = "give --overwrite to start anew, or another --out"
 GO_ON = "give --resume to go on, --overwrite to start anew, or another --out"
 Line = dict[str, Any]
-Progress = Callable[[str, int, int], None]
-"""Called with a label, how many are done and how many there are in all of that part of a run."""
 
 
 def silent(_label: str, _done: int, _total: int) -> None:
@@ -107,7 +106,7 @@ class RecordLog:
         return [name for name in names if name not in done]
 
     def fill(
-        self, key: str, made: Iterable[Line], report: Progress, label: str, left: int, total: int
+        self, key: str, made: Iterable[Line], report: Report, label: str, left: int, total: int
     ) -> None:
         """Append records under the key as they are made: the `left` ones of `total` in all."""
         report(label, total - left, total)

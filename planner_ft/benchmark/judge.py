@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.paired import Paired, paired
+from planner_ft.benchmark.paired import paired
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.decoding.configurations import Limits
@@ -15,6 +15,7 @@ from planner_ft.decoding.forward import SmallModel, small_model
 from planner_ft.decoding.generate import Generation, Method, Query, generate
 from planner_ft.decoding.passes import ModelDecoder
 from planner_ft.prompts import ends_of_answers, render_prompt
+from planner_ft.support.templates import text_template
 from planner_ft.training.checkpoint import JUDGED, Answer, Run
 from planner_ft.training.model import SMALL_MODEL, autocast, evaluating
 from planner_ft.vocabulary.plans import without_working
@@ -77,32 +78,11 @@ class Judge:
         seed, first = self.run.settings.seed, {one["id"]: [one] for one in base}
         second = {one["id"]: [one] for one in best}
         f1, exact = (paired(METRIC[name], first, second, seed) for name in ("f1", "exact_sequence"))
-        bounds = [(one.difference.low or 0, one.difference.high or 0) for one in (f1, exact)]
-        figures = f"F1 {_values(f1, 1)}, exact {_values(exact, 100)} %"
-        where = f"on {len(best)} validation samples"
-        if any(low > 0 for low, _high in bounds):
-            return f"better than the base {where}: {figures}"
-        worse = any(high < 0 for _low, high in bounds)
-        than = "worse than the base" if worse else "no better than the base"
-        return f"{than} {where}: {figures}; next: {self._lever()}"
-
-    def _lever(self) -> str:
-        state, settings = self.run.state, self.run.settings
-        losses = [entry["validation_loss"] for entry in state.history]
-        if losses and losses[-1] <= min(losses) and len(losses) > 1:
-            return f"more passes (--epochs {2 * settings.epochs}) or a higher --learning-rate"
-        lower = f"a lower --learning-rate (now {settings.learning_rate:g})"
-        more = "more samples: write some, or --vary 3" if not settings.vary else "more samples"
-        return f"{more}, or {lower}"
-
-
-def _values(pair: Paired, scale: int) -> str:
-    """Both values, and the difference with its interval."""
-    decimals = 2 if scale == 1 else 0
-    first, second = ((value or 0.0) * scale for value in (pair.first, pair.second))
-    low, high = ((value or 0.0) * scale for value in (pair.difference.low, pair.difference.high))
-    bounds = f"difference {low:+.{decimals}f} to {high:+.{decimals}f}"
-    return f"{first:.{decimals}f} to {second:.{decimals}f} ({bounds})"
+        losses = [entry["validation_loss"] for entry in self.run.state.history]
+        falling = len(losses) > 1 and losses[-1] <= min(losses)
+        known = {"f1": f1, "exact": exact, "n": len(best), "settings": self.run.settings}
+        template = text_template("planner_ft.benchmark", "judge.txt.j2")
+        return template.render(**known, falling=falling).strip()
 
 
 def small_form(model: Any, *, adapter: bool) -> SmallModel | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -13,6 +12,7 @@ from planner_ft.benchmark.catalogue import MAIN, METRIC, METRICS, RIGHT
 from planner_ft.benchmark.contrasts import contrast_notes, marks
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
+from planner_ft.support.files import read_csv
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
 from planner_ft.support.templates import text_template
 from planner_ft.vocabulary.plans import Level
@@ -31,9 +31,7 @@ PERCENT = ("hallucination", "schema_valid")
 @functools.cache
 def published_rows(level: Level) -> tuple[Row, ...]:
     """The published table of a level, each model in both configurations; rates are fractions."""
-    with open(FOLDER / f"{level}.csv", encoding="utf-8", newline="") as stream:
-        lines = list(csv.DictReader(stream))
-    rows = []
+    rows, lines = [], read_csv(FOLDER / f"{level}.csv")
     for line, configuration in ((line, name) for line in lines for name in CONFIGURATIONS):
         model, metrics = line["model"], {}
         for column, text in line.items():

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import typer
 
 from planner_ft.cli.options import Options, command
-from planner_ft.cli.progress import Report, interruptible
-from planner_ft.support.terminal import show
+from planner_ft.cli.progress import interruptible
+from planner_ft.support.terminal import Report, show
 
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument

@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING
 import typer
 
 from planner_ft.support.alone import alone
-from planner_ft.support.terminal import terminal
+from planner_ft.support.terminal import Report, terminal
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-Report = Callable[[str, int, int], None]
 EVERY = 30.0
 """Seconds between lines where there is no terminal."""
 

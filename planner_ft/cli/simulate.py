@@ -26,8 +26,7 @@ def simulate(o: Options) -> None:
         _suite(o)
         return
     from planner_ft.planning.locations import parse_locations
-    from planner_ft.simulation.faults import read_faults
-    from planner_ft.simulation.outlines import read_outlines
+    from planner_ft.simulation.asked import read_faults, read_outlines
     from planner_ft.simulation.output import outcome_lines, table
     from planner_ft.simulation.run import SimulationSettings
     from planner_ft.simulation.run import simulate as run

@@ -9,17 +9,18 @@ import itertools
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
 from planner_ft.report.answers import index, parts, script_json
 from planner_ft.report.contents import Section, section
-from planner_ft.report.pictures import NARROW, WIDE, inline_svg
+from planner_ft.report.pictures import NARROW, WIDE, inline_svg, picture
 from planner_ft.report.runs import load_test_sets
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer, write_text
 from planner_ft.support.tables import csv_table, latex_table, markdown_table
+from planner_ft.support.templates import environment
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -86,8 +87,6 @@ def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
 def _figures(sections: Sequence[Section], out: Path, pictures: str) -> Iterator[Path]:
     if pictures == "none":
         return
-    from planner_ft.report.pictures import picture
-
     for one in sections:
         for chart in one.figures if pictures == "all" else one.charts:
             for suffix, content in picture(chart).items():
@@ -114,20 +113,16 @@ def page(sections: Sequence[Section], title: str) -> str:
 @functools.cache
 def templates() -> Environment:
     """The templates of the page, with their filters."""
-    from jinja2 import Environment, PackageLoader
-
-    blocks: Any = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
-    loader = PackageLoader("planner_ft.report")
-    environment = Environment(loader=loader, autoescape=True, **blocks)
-    environment.filters |= {
+    found = environment("planner_ft.report", autoescape=True, keep_trailing_newline=True)
+    found.filters |= {
         # Names in camel case may break where a capital stands.
         "breakable": lambda label: Markup("<wbr>").join(CAMEL.split(label)),
         "drawing": lambda chart, width: Markup(inline_svg(chart, width)),
         "index": lambda tests: Markup(script_json(index(tests))),
         "parts": lambda tests: map(Markup, parts(tests)),
     }
-    environment.globals.update(WIDE=WIDE, NARROW=NARROW)
-    return environment
+    found.globals.update(WIDE=WIDE, NARROW=NARROW)
+    return found
 
 
 def _hash(content: str) -> str:

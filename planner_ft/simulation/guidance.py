@@ -13,9 +13,8 @@ import numpy as np
 
 from planner_ft.document.clearance import way_round
 from planner_ft.document.track import Point
-from planner_ft.simulation.control import FIX_SIGMA, Pid
 from planner_ft.simulation.fast import Bools, Floats, Runs, turned, wrapped
-from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.scene import FIX_SIGMA, Pid, Scene
 from planner_ft.simulation.skill import Job, Skill
 
 AHEAD = 4.0

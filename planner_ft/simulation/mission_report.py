@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import clock
+from planner_ft.support.templates import environment
 
 if TYPE_CHECKING:
     from planner_ft.simulation.run import Simulated
@@ -21,22 +22,13 @@ Line = Mapping[str, Any]
 
 def report_texts(done: Simulated, picture: str) -> dict[str, str]:
     """The report of run 1 by file ending."""
-    from jinja2 import Environment, PackageLoader
-
     image = "data:image/svg+xml;base64," + base64.b64encode(picture.encode()).decode()
     content = {**report_content(done), "picture": image}
     texts = {}
     for ending in ("md", "html"):
-        environment = Environment(
-            loader=PackageLoader("planner_ft.simulation"),
-            autoescape=ending == "html",
-            trim_blocks=True,
-            lstrip_blocks=True,
-            keep_trailing_newline=True,
-        )
-        environment.finalize = _plain if ending == "md" else None
-        template = environment.get_template(f"report.{ending}.j2")
-        texts[ending] = template.render(report=content)
+        how = {"finalize": _plain} if ending == "md" else {"autoescape": True}
+        found = environment("planner_ft.simulation", keep_trailing_newline=True, **how)
+        texts[ending] = found.get_template(f"report.{ending}.j2").render(report=content)
     return texts
 
 

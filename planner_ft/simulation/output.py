@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import csv
+import io
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
@@ -11,9 +11,9 @@ from typing import Any
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.simulation.measures import METRICS, RunResult, summary
 from planner_ft.simulation.mission_report import report_texts
-from planner_ft.simulation.picture import track_svg
 from planner_ft.simulation.run import MANIFEST, RESULTS, Simulated
-from planner_ft.support.files import write_json, write_text
+from planner_ft.simulation.world import PILE
+from planner_ft.support.files import read_csv, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Cell, Table, csv_table, figure, markdown_table, row
 
@@ -36,6 +36,9 @@ CAPTION = (
     " Published figures are quoted from the published study: its own simulator, structures and"
     " starts, so that steps and seconds depend on another distance."
 )
+MOST_TRACKS = 50
+"""Tracks that are drawn: more would cover each other."""
+SETTINGS = {"svg.hashsalt": "planner_ft", "svg.fonttype": "none", "font.size": 9}
 
 
 def write_all(done: Simulated) -> None:
@@ -125,8 +128,7 @@ def cell(name: str, value: Estimate) -> Cell:
 
 def published_missions() -> list[dict[str, str]]:
     """The lines of published.csv."""
-    with open(PUBLISHED, encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream))
+    return read_csv(PUBLISHED)
 
 
 def _published(done: Simulated, narrow: bool) -> list[dict[str, str]]:
@@ -142,3 +144,65 @@ def number(line: dict[str, str], name: str) -> float | None:
     """A published figure, a rate as a fraction; None where none was published."""
     text = line.get(name)
     return float(text) / (float(line["runs"]) if name == "success" else 1) if text else None
+
+
+def track_svg(done: Simulated) -> str:
+    """An SVG drawing: x east, y north, in metres."""
+    import matplotlib
+
+    with matplotlib.rc_context(SETTINGS):
+        return _drawn(done)
+
+
+def _drawn(done: Simulated) -> str:
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Circle, Polygon
+
+    figure = Figure(figsize=(8, 7), layout="constrained")
+    FigureCanvasSVG(figure)
+    axes = figure.add_subplot()
+    edge: dict[str, Any] = {"edgecolor": "#b22", "fill": False}
+    for fence in done.staging.fences:
+        label = "fence" if fence.inside else "closed"
+        axes.add_patch(Polygon(fence.polygon, label=label, linestyle="-.", **edge))
+    for boundary in done.plan.track.boundaries:
+        axes.add_patch(Polygon(boundary.polygon, linestyle=":", **edge))
+    outlines = done.scene.world.outlines
+    for number, structure in enumerate(done.scene.world.structures):
+        solid = (
+            Polygon(outlines[number]) if number in outlines else Circle(structure.position, PILE)
+        )
+        solid.set_color("#444")
+        axes.add_patch(solid)
+        ring: dict[str, Any] = {"fill": False, "edgecolor": "#888", "linestyle": "--"}
+        axes.add_patch(Circle(structure.position, structure.standoff, **ring))
+        axes.annotate(structure.name, structure.position, (4, 4), textcoords="offset points")
+    for run, track in reversed(list(enumerate(done.tracks[:MOST_TRACKS]))):
+        line: dict[str, Any] = {"color": "#06c", "linewidth": 1.6, "label": "run 1", "zorder": 4}
+        if run:
+            name = "other runs" if run == 1 else None
+            line = {"color": "#9bc", "linewidth": 0.7, "label": name, "zorder": 3}
+        axes.plot([x for x, _y in track], [y for _x, y in track], **line)
+    for leg in done.plan.track.legs:
+        if len(leg.points) > 1:
+            axes.plot(*zip(*leg.points, strict=True), "k:", linewidth=1, zorder=5)
+            axes.plot(*leg.points[-1], "k+", markersize=6, zorder=6)
+    axes.plot(*done.plan.vocabulary.home, "ks", markersize=6, label="home", zorder=6)
+    axes.plot([], [], "k:", label="plan")
+    for told in done.log:
+        if told["kind"] in ("event", "end") and told["text"] != "done":
+            axes.plot(*told["at"], "rx", zorder=7)
+            text = str(told["text"])[:60]
+            axes.annotate(text, told["at"], (6, -10), textcoords="offset points", color="#b00")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.autoscale_view()
+    axes.set_xlabel("x east, m")
+    axes.set_ylabel("y north, m")
+    axes.grid(color="#eee")
+    ended = sum(one.success for one in done.results)
+    axes.set_title(f"{ended} of {len(done.results)} runs done; {done.settings.simulator} simulator")
+    axes.legend(loc="best", fontsize=8)
+    stream = io.StringIO()
+    figure.savefig(stream, format="svg", metadata={"Date": None})
+    return stream.getvalue()

@@ -18,11 +18,11 @@ from planner_ft.exporters.formats import PlanExport
 from planner_ft.planning.frame import origin_of
 from planner_ft.review.log import log_beside
 from planner_ft.review.verify import approval_of
+from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.fast import SIMULATORS, Floats, build_simulator
-from planner_ft.simulation.faults import Faults
+from planner_ft.simulation.logs import RunLogs
 from planner_ft.simulation.measures import Observer, RunResult
-from planner_ft.simulation.run_logs import RunLogs
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.slots import GUIDANCE, WAYPOINTS, Slots
 from planner_ft.simulation.staging import Staging
@@ -32,6 +32,7 @@ from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import check_writable
 from planner_ft.support.geodesy import Origin
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary import load_vocabulary
 
 MOST_RUNS = 500
@@ -47,7 +48,6 @@ OURS = (
     ".*.tmp",
 )
 """Files of a simulation, which --overwrite may remove."""
-Report = Callable[[str, int, int], None]
 Watch = Callable[[Executor], None]
 
 

@@ -1,4 +1,6 @@
-"""The state that skills of one simulation share: estimates, sensors, the clock and the records."""
+"""The state that skills of one simulation share: estimates, sensors, the clock and the records; and
+what lies between commanded and actual motion: PID autopilot, and where the vehicle believes to be.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +9,23 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.simulation.control import FIX_EVERY, Autopilot, Localiser
-from planner_ft.simulation.fast import Bools, Floats, Runs, Simulator
+from planner_ft.simulation.fast import Bools, Floats, Runs, Simulator, turned
+from planner_ft.simulation.vessel import Vessel
 from planner_ft.simulation.world import World
 from planner_ft.support.geodesy import Origin
 
+FIX_SIGMA = 0.25
+"""Metres, of a GPS fix along each axis: ASSUMPTION, a receiver with corrections."""
+FIX_EVERY = 1.0
+"""Seconds between two fixes."""
+DRIFT, GUST = 0.05, 1e-5
+"""m/s that the water may drift by at the start, and (m/s)^2/s by which that may change: 0.024 m/s
+a minute, three times what a tide of 1 m/s changes by.
+"""
+MOORED = 60.0
+"""Seconds for which the vehicle has lain at its start with the receiver on: ASSUMPTION."""
+MOST_YAW = 0.7
+"""Share of the thrust that steering may take; going ahead has the rest."""
 LOST = 60.0
 """Seconds without a fix after which the position counts as lost."""
 WAVE, PERIOD, HEEL = 1.5, 5.0, 4.0
@@ -19,6 +33,101 @@ WAVE, PERIOD, HEEL = 1.5, 5.0, 4.0
 
 Record = Callable[[int, dict[str, Any]], None]
 """Takes the number of a run (from 0) and one line of its log."""
+
+
+class Pid:
+    """PID over a batch: error (B,) to output (B,). The integral is clamped to `most`, and emptied
+    where the error is not `small`.
+    """
+
+    def __init__(
+        self,
+        runs: int,
+        p: float,
+        i: float = 0.0,
+        d: float = 0.0,
+        most: float = 1.0,
+        small: float = np.inf,
+    ) -> None:
+        self.p, self.i, self.d, self.most, self.small = p, i, d, most, small
+        self.sum, self.last = np.zeros(runs), np.zeros(runs)
+
+    def __call__(self, error: Floats, seconds: float) -> Floats:
+        added = np.clip(self.sum + self.i * seconds * error, -self.most, self.most)
+        self.sum = np.where(np.abs(error) < self.small, added, 0.0)
+        slope, self.last = (error - self.last) / seconds, error
+        return self.p * error + self.sum + self.d * slope
+
+
+class Autopilot:
+    """Forces or thrusts that bring the vehicle to a commanded twist."""
+
+    def __init__(self, vessel: Vessel, runs: int) -> None:
+        self.vessel = vessel
+        self.speed = [Pid(runs, 1.5, 0.3, most=0.5, small=0.5) for _axis in range(3)]
+        self.rate = Pid(runs, 3.0, 1.0, most=0.3, small=0.2)
+
+    def __call__(self, command: Floats, twist: Floats, seconds: float, idle: Bools) -> Floats:
+        """Actuators of a simulator for commands and twists (B, 4); none for `idle` runs."""
+        own = self.vessel
+        drag = (own.drag[0], own.drag[1], own.drag[0])
+        ahead, aside, up = (
+            own.mass
+            * (drag[axis] * command[:, axis] + pid(command[:, axis] - twist[:, axis], seconds))
+            for axis, pid in enumerate(self.speed)
+        )
+        rate = self.rate(command[:, 3] - twist[:, 3], seconds)
+        moment = own.inertia * (own.drag[2] * command[:, 3] + rate)
+        if own.drive == "free":
+            limit = 2 * own.thrust
+            forces = [np.clip(force, -limit, limit) for force in (ahead, aside, up)]
+            made = np.stack([*forces, np.clip(moment, -limit, limit)], axis=1)
+        else:
+            steer = np.clip(moment / own.track, -MOST_YAW * own.thrust, MOST_YAW * own.thrust)
+            room = own.thrust - np.abs(steer)
+            drive = np.clip(ahead / 2, -room, room)
+            made = np.stack([drive - steer, drive + steer], axis=1)
+        return np.where(idle[:, None], 0.0, made)
+
+
+class Localiser:
+    """Position by GPS and dead reckoning; heading and speed through the water are measured.
+
+    A Kalman filter of `position` (B, 2) and `drift` (B, 2) of the water, the same along both axes;
+    `spread` (2, 2) is its covariance. `silent` (B,) are seconds since
+    the last fix, `fix` (B, 2) the last fix.
+    """
+
+    def __init__(self, place: Floats, generator: np.random.Generator) -> None:
+        self.position, self.drift = place.copy(), np.zeros_like(place)
+        self.fix, self.silent = place.copy(), np.zeros(len(place))
+        self.spread = np.diag([FIX_SIGMA**2, DRIFT**2])
+        self.generator = generator
+
+    def settle(self, pose: Floats, current: Floats, seconds: float) -> None:
+        """Lie still at `pose` before the start, so that fixes tell how the water moves."""
+        every, still = round(FIX_EVERY / seconds), np.zeros((len(pose), 4))
+        for step in range(1, round(MOORED / seconds) + 1):
+            self.step(pose, still, current, seconds, heard=True, due=step % every == 0)
+
+    def step(
+        self, pose: Floats, twist: Floats, current: Floats, seconds: float, heard: bool, due: bool
+    ) -> None:
+        """Take one step; `heard`: the receiver works, `due`: a fix is due now."""
+        through = turned(twist[:, :2], pose[:, 3]) - current
+        moving = np.array([[1.0, seconds], [0.0, 1.0]])
+        self.spread = moving @ self.spread @ moving.T + np.diag([0.0, GUST * seconds])
+        self.position = self.position + seconds * (through + self.drift)
+        self.silent += seconds
+        if heard and due:
+            noise = self.generator.normal(0.0, FIX_SIGMA, self.position.shape)
+            self.fix = pose[:, :2] + noise
+            error = self.fix - self.position
+            gain = self.spread[:, 0] / (self.spread[0, 0] + FIX_SIGMA**2)
+            self.spread = self.spread - np.outer(gain, self.spread[0])
+            self.position = self.position + gain[0] * error
+            self.drift = self.drift + gain[1] * error
+            self.silent[:] = 0.0
 
 
 class Scene:

@@ -6,14 +6,14 @@ A slot is exchangeable: parameters, perception, filters, end and failure modes s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from planner_ft.simulation.asked import reach
 from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.fast import Floats
-from planner_ft.simulation.outlines import reach
 from planner_ft.simulation.skill import Job
 from planner_ft.simulation.world import PILE
 from planner_ft.support.errors import PlannerError
@@ -35,23 +35,22 @@ class Slots:
 
     def __post_init__(self) -> None:
         """Raise PlannerError for a word that is neither known nor a folder."""
-        for flag, value, usual in (
-            ("--goto", self.goto, GUIDANCE),
-            ("--survey", self.survey, WAYPOINTS),
-        ):
+        for flag, value, usual, _table in self._given():
             if value not in (usual, LEARNT) and not Path(value).is_dir():
                 known = f"{usual}, {LEARNT}, or the folder of a trained policy"
                 raise PlannerError(f"{flag} {value}: must be {known}")
 
     def check(self, raw: Mapping[str, Any], vocabulary: str) -> None:
         """Raise PlannerError for a vehicle without such skills."""
-        for flag, value, usual, table in (
-            ("--goto", self.goto, GUIDANCE, "skill"),
-            ("--survey", self.survey, WAYPOINTS, "task"),
-        ):
+        for flag, value, usual, table in self._given():
             if value != usual and not any(LEARNT in one for one in raw.get(table, {}).values()):
                 problem = f"{vocabulary} has no learnt skill for it; leave it out"
                 raise PlannerError(f"{flag} {value}: {problem}")
+
+    def _given(self) -> Iterator[tuple[str, str, str, str]]:
+        """The flag, value and usual value of each slot, and the table of what is learnt."""
+        yield "--goto", self.goto, GUIDANCE, "skill"
+        yield "--survey", self.survey, WAYPOINTS, "task"
 
     def settings(self, own: Mapping[str, Any], kind: str | None) -> Mapping[str, Any]:
         """The settings of a skill with a motion of this kind, with what fills its slot."""
@@ -62,7 +61,7 @@ class Slots:
 
     def standoff(self, name: str | None, radius: float) -> float:
         """Metres from a structure's surface for a radius about its place."""
-        outline = next((one for key, one in self.outlines.items() if key == name), None)
+        outline = self.outlines.get(name or "")
         return radius - (PILE if outline is None else reach(outline))
 
     def surveyed(self, stages: Sequence[Stage], job: Job) -> list[Stage]:

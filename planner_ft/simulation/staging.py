@@ -83,14 +83,17 @@ class Staging:
     @property
     def seconds(self) -> float:
         """How long a run may take: the vehicle's endurance, or the plan's own limit."""
-        stated = [one["values"]["duration"] for one in self.limits if one["kind"] == "duration"]
-        return float(min([self.vessel.endurance, *stated]))
+        return self._most("duration", self.vessel.endurance)
 
     @property
     def speed(self) -> float:
         """m/s that the plan may go at most."""
-        stated = [one["values"]["speed"] for one in self.limits if one["kind"] == "speed"]
-        return float(min([self.vessel.speed, *stated]))
+        return self._most("speed", self.vessel.speed)
+
+    def _most(self, kind: str, own: float) -> float:
+        """The vehicle's own limit, or the least that the plan states."""
+        stated = [one["values"][kind] for one in self.limits if one["kind"] == kind]
+        return float(min([own, *stated]))
 
     def rings(self) -> dict[str, Ring]:
         """The stand-off of each task that keeps one, by its id."""

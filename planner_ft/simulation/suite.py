@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import re
 import shutil
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,14 +20,15 @@ from planner_ft.document.vehicle import load_vehicle
 from planner_ft.planning.locations import Position
 from planner_ft.review import approve, log_beside
 from planner_ft.review.verify import approval_of
+from planner_ft.simulation.asked import read_outlines
 from planner_ft.simulation.fast import Floats
-from planner_ft.simulation.outlines import read_outlines
 from planner_ft.simulation.output import COLUMNS, cell, number, published_missions
 from planner_ft.simulation.run import MANIFEST, RESULTS, SimulationSettings, simulate
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import check_writable, read_json, read_toml, write_json, write_text
 from planner_ft.support.tables import Table, TableRow, csv_table, markdown_table, row
+from planner_ft.support.terminal import Report
 
 if TYPE_CHECKING:
     from planner_ft.planning.planner import Planner
@@ -43,7 +46,8 @@ SHORT = ("success", "waypoint_error", "holding_error", "standoff_error")
 """Figures for a terminal."""
 SUITE, PLAN = "suite.json", "plan.json"
 REASON = "approved by a suite, read by nobody: for simulation alone"
-Report = Callable[[str, int, int], None]
+Ran = dict[tuple[str, str], dict[str, Any]]
+"""results.json by mission and simulator."""
 
 
 @dataclass(frozen=True)
@@ -78,13 +82,6 @@ class Suite:
     @property
     def simulators(self) -> list[str]:
         return list(dict.fromkeys(self.raw["simulators"]))
-
-
-@dataclass
-class Ran:
-    """What a suite came to: results.json by mission and simulator."""
-
-    results: dict[tuple[str, str], dict[str, Any]] = field(default_factory=dict)
 
 
 def read_suite(path: Path) -> Suite:
@@ -127,13 +124,28 @@ def _mission(values: Mapping[str, Any]) -> Mission:
 
 def run_suite(suite: Suite, out: Path, report: Report, *, overwrite: bool = False) -> Ran:
     """Run what is not done yet, and write the table. Raises PlannerError."""
-    with alone(out, "--out", "a suite"):
+    ran: Ran = {}
+    with alone(out, "--out", "a suite"), contextlib.ExitStack() as stack:
+
+        @functools.cache
+        def agents() -> Planner:
+            """Both agents, loaded when a command is to be planned."""
+            from planner_ft.planning.planner import Planner
+            from planner_ft.planning.settings import PlanSettings
+
+            return stack.enter_context(Planner(PlanSettings()))
+
         check_writable(out)
         _take(suite, out, overwrite)
-        ran = Ran()
-        with _Agents() as agents:
-            for mission in suite.missions:
-                _run(suite, mission, out, report, agents, ran)
+        for mission in suite.missions:
+            plan = out / mission.folder / PLAN
+            if not _is_approved(plan):
+                _plan(mission, plan, agents())
+            for simulator in suite.simulators:
+                settings = _settings(suite, mission, simulator, plan)
+                if not (settings.folder / MANIFEST).exists():
+                    simulate(settings, _named(report, f"{mission.name}, {simulator}"))
+                ran[mission.name, simulator] = read_json(settings.folder / RESULTS)
         made = suite_table(suite, ran)
         write_text(out / "table.md", markdown_table(made))
         write_text(out / "table.csv", csv_table(made))
@@ -155,48 +167,21 @@ def _take(suite: Suite, out: Path, overwrite: bool) -> None:
     write_json(known, suite.raw)
 
 
-class _Agents:
-    """Both agents, loaded when a command is to be planned."""
-
-    def __enter__(self) -> _Agents:
-        self.planner: Planner | None = None
-        return self
-
-    def __exit__(self, *_error: object) -> None:
-        if self.planner:
-            self.planner.__exit__(None, None, None)
-
-    def plan(self, mission: Mission, path: Path) -> None:
-        """Write the plan of a mission, and approve it in a log of its own beside it."""
-        if self.planner is None:
-            from planner_ft.planning.planner import Planner
-            from planner_ft.planning.settings import PlanSettings
-
-            self.planner = Planner(PlanSettings())
-        planned = self.planner.plan(mission.command, mission.locate)
-        vocabulary = self.planner.vocabulary
-        document = build(planned, vocabulary, load_vehicle(None, vocabulary))
-        write_document(path, document)
-        approve(document, log_beside(path), f"suite, {mission.name}", ["all"], REASON)
+def _is_approved(plan: Path) -> bool:
+    """Whether the plan of a mission is there, and somebody decided on it."""
+    return plan.exists() and approval_of(read_document(plan), log_beside(plan)).status != "unknown"
 
 
-def _run(
-    suite: Suite, mission: Mission, out: Path, report: Report, agents: _Agents, ran: Ran
-) -> None:
-    plan = out / mission.folder / PLAN
-    log = log_beside(plan)
-    if not plan.exists() or approval_of(read_document(plan), log).status == "unknown":
-        agents.plan(mission, plan)
-    for simulator in suite.simulators:
-        settings = _settings(suite, mission, simulator, plan)
-        done = settings.folder / MANIFEST
-        if not done.exists():
+def _plan(mission: Mission, path: Path, agents: Planner) -> None:
+    """Write the plan of a mission, and approve it in a log of its own beside it."""
+    planned = agents.plan(mission.command, mission.locate)
+    document = build(planned, agents.vocabulary, load_vehicle(None, agents.vocabulary))
+    write_document(path, document)
+    approve(document, log_beside(path), f"suite, {mission.name}", ["all"], REASON)
 
-            def named(label: str, now: int, total: int, of: str = simulator) -> None:
-                report(f"{mission.name}, {of}: {label}", now, total)
 
-            simulate(settings, named)
-        ran.results[mission.name, simulator] = read_json(settings.folder / RESULTS)
+def _named(report: Report, name: str) -> Report:
+    return lambda label, done, total: report(f"{name}: {label}", done, total)
 
 
 def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> SimulationSettings:
@@ -230,7 +215,7 @@ def suite_table(suite: Suite, ran: Ran, names: Sequence[str] = tuple(COLUMNS)) -
 
 def _rows(suite: Suite, mission: Mission, ran: Ran, names: Sequence[str]) -> Iterator[TableRow]:
     for simulator in suite.simulators:
-        result = ran.results[mission.name, simulator]
+        result = ran[mission.name, simulator]
         cells = [cell(name, Estimate(**result["overall"][name])) for name in names]
         yield row(f"{mission.name}, {simulator}", str(len(result["runs"])), *cells)
     quoted = next(one for one in published_missions() if one["mission"] == mission.published)

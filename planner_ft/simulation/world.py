@@ -11,8 +11,8 @@ import numpy as np
 
 from planner_ft.document.structures import Allowed, Structure
 from planner_ft.document.track import Point
+from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.fast import Floats, Runs
-from planner_ft.simulation.faults import Faults
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.support.errors import PlannerError
 

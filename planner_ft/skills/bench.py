@@ -2,29 +2,35 @@
 
 from __future__ import annotations
 
-import csv
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import torch
 
-from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, wilson
-from planner_ft.skills.episodes import Actor, Episode, play
-from planner_ft.skills.followers import Follower, Guidance, Oracle
+from planner_ft.benchmark.statistics import bootstrap_mean, wilson
+from planner_ft.skills.episodes import Actor, Episode, contour_follower, oracle, play
 from planner_ft.skills.policies import MANIFEST, SKILLS, Policy, digest, read_policy, torch_threads
 from planner_ft.skills.shapes import HELD_OUT, PUBLISHED
 from planner_ft.skills.survey import Task
+from planner_ft.skills.tracker import Guidance
 from planner_ft.skills.tracking_bench import tracking_table
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, make_folder, read_json, write_json, write_text
+from planner_ft.support.files import (
+    compact_json,
+    make_folder,
+    read_csv,
+    read_json,
+    write_json,
+    write_text,
+)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, csv_table, figure, markdown_table, row
+from planner_ft.support.terminal import Report
 
-Report = Callable[[str, int, int], None]
 MOST = 500
 ROUNDING = 1.5
 COLUMNS = ("success % ↑", "collision % ↓", "lost % ↓", "stand-off m ↓", "steps")
@@ -95,21 +101,21 @@ Played = dict[str, dict[str, list[Episode]]]
 def _play_all(request: SkillBench, policies: Sequence[Policy], report: Report) -> Played:
     tracker: Any = read_policy("goto", request.goto).module
     guidance: Any = Guidance(tracker)
-    actors: dict[str, tuple[Callable[[], Actor], Any]] = {}
+    actors: dict[str, tuple[Actor | Policy, Any]] = {}
     for policy in policies:
-        name = "learnt, shipped" if policy is policies[0] else _name(policy)
-        actors[name] = (lambda one=policy: _actor(one), tracker)  # type: ignore[misc]
-    actors["contour follower"] = (Follower, tracker)
-    actors["contour follower, guidance and PID"] = (Follower, guidance)
-    actors["oracle: offset path"] = (Oracle, tracker)
+        actors["learnt, shipped" if policy is policies[0] else _name(policy)] = policy, tracker
+    actors["contour follower"] = contour_follower, tracker
+    actors["contour follower, guidance and PID"] = contour_follower, guidance
+    actors["oracle: offset path"] = oracle, tracker
     played: Played = {name: {} for name in actors}
     total, done = len(actors) * len(CONDITIONS), 0
     for condition, (families, task) in CONDITIONS.items():
         each = [family for family in families for _episode in range(request.episodes)]
-        for name, (make, drives) in actors.items():
+        for name, (who, drives) in actors.items():
             report("survey bench", done, total)
             own = replace(task, rounding=ROUNDING if name.startswith("oracle") else None)
-            played[name][condition] = play(make(), drives, own, each, request.seed)
+            actor = _fresh(who) if isinstance(who, Policy) else who
+            played[name][condition] = play(actor, drives, own, each, request.seed)
             done += 1
     report("survey bench", total, total)
     return played
@@ -140,7 +146,7 @@ def pooled(policies: Sequence[Policy], played: Played) -> Played:
     return found
 
 
-def _actor(policy: Policy) -> Actor:
+def _fresh(policy: Policy) -> Actor:
     """A policy with an empty memory."""
     module: Any = policy.module
     module.memory = None
@@ -186,22 +192,15 @@ def _row(name: str, episodes: Sequence[Episode], seed: int) -> TableRow:
     rates = [wilson(sum(one.outcome == kind for one in episodes), count) for kind in _RATES]
     error = bootstrap_mean([one.error for one in episodes], range(count), seed)
     steps = bootstrap_mean([float(one.steps) for one in episodes], range(count), seed)
-    cells = [figure(*_bounds(one), scale=100, decimals=0) for one in rates]
-    cells += [figure(*_bounds(error)), figure(*_bounds(steps), decimals=0)]
-    return row(name, *cells)
-
-
-def _bounds(one: Estimate) -> tuple[float | None, float | None, float | None]:
-    return one.value, one.low, one.high
+    cells = [one.cell(scale=100, decimals=0) for one in rates]
+    return row(name, *cells, error.cell(), steps.cell(decimals=0))
 
 
 def _published() -> dict[str, list[dict[str, str]]]:
     """Lines of published.csv by policy."""
     found: dict[str, list[dict[str, str]]] = {}
-    path = Path(__file__).with_name("published.csv")
-    with open(path, encoding="utf-8", newline="") as stream:
-        for line in csv.DictReader(stream):
-            found.setdefault(line["policy"], []).append(line)
+    for line in read_csv(Path(__file__).with_name("published.csv")):
+        found.setdefault(line["policy"], []).append(line)
     return found
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from planner_ft.simulation.control import MOST_YAW
+from planner_ft.simulation.scene import MOST_YAW
 from planner_ft.simulation.vessel import STEP, Vessel, build_vessel
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
@@ -79,7 +79,7 @@ class Dynamics:
     def _autopilot(
         self, want: Tensor, turn: Tensor, surge: Tensor, rate: Tensor, first: Tensor, second: Tensor
     ) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-        """Force ahead in N, moment in N m and the integrals, as `control.Autopilot` makes them."""
+        """Force ahead in N, moment in N m and the integrals, as `scene.Autopilot` makes them."""
         own, dt = self.vessel, self.seconds
         error, spin = want - surge, turn - rate
         first = torch.where(error.abs() < 0.5, (first + 0.3 * dt * error).clamp(-0.5, 0.5), 0.0)

@@ -1,7 +1,11 @@
-"""Episodes of SurveyTarget played to their ends, and the figures of the published protocol."""
+"""Episodes of SurveyTarget played to their ends with the figures of the published protocol, and the
+baselines: a contour follower on the same rays, and the oracle's way. An actor is called with a
+`Survey` and gives actions (B, 2).
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -9,12 +13,15 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from planner_ft.skills.dynamics import Dynamics, published_vessel
-from planner_ft.skills.survey import Survey, Task
+from planner_ft.skills import geometry
+from planner_ft.skills.dynamics import Dynamics, published_vessel, turned
+from planner_ft.skills.survey import Survey, Task, action_of
 from planner_ft.skills.tracker import Tracker
 
 Actor = Callable[[Survey], Tensor]
-OUTCOMES = ("success", "collision", "lost", "late")
+LOOK = 2.5
+"""Metres ahead on the way to which a waypoint is named."""
+PUSHES = 3
 
 
 @dataclass(frozen=True)
@@ -46,3 +53,40 @@ def play(
                 figures = error, int(world.time[one]), float(world.length[one])
                 found[one] = Episode(families[one], outcome, *figures)
     return [one for one in found if one is not None]
+
+
+def contour_follower(survey: Survey) -> Tensor:
+    """Keeps the nearest return abeam to port: a waypoint ahead along the wall, pushed off until it
+    keeps the stand-off from all returns.
+    """
+    scan, standoff = survey.scan, survey.standoff
+    angles = geometry.ray_angles()
+    rays = torch.stack([torch.cos(angles), torch.sin(angles)], dim=1)
+    hits = scan[..., None] * rays
+    seen = scan < geometry.REACH
+    away, ray = scan.min(dim=1)
+    wall = rays[ray]
+    along = torch.stack([wall[:, 1], -wall[:, 0]], dim=1)
+    off = (away - standoff).clamp(-LOOK, LOOK)
+    place = LOOK * along + off[:, None] * wall
+    for _push in range(PUSHES):
+        to = hits - place[:, None]
+        far = to.norm(dim=2).masked_fill(~seen, math.inf)
+        least, which = far.min(dim=1)
+        direction = to[torch.arange(len(to)), which] / least.clamp_min(1e-6)[:, None]
+        push = torch.where(least.isfinite(), least - standoff, 0.0).clamp_max(0.0)
+        place = place + push[:, None] * direction
+    pose = survey.pose
+    return action_of(pose[:, :2] + turned(place, pose[:, 2]), pose)
+
+
+def oracle(survey: Survey) -> Tensor:
+    """Knows the outline: a waypoint LOOK m ahead on the way at the stand-off."""
+    place, way = survey.state[:, :2], survey.way
+    away = (way - place[:, None]).square().sum(dim=2)
+    at = away.argmin(dim=1)
+    spacing = (way[:, 1:] - way[:, :-1]).norm(dim=2).mean(dim=1)
+    ahead = (LOOK / spacing).round().long()
+    row = torch.arange(len(way))
+    target = way[row, (at + ahead) % way.shape[1]]
+    return action_of(target, survey.pose)

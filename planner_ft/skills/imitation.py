@@ -6,8 +6,7 @@ The policy drives, the teacher says what it would have done there (DAgger: Ross,
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,15 +14,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from planner_ft.skills.checkpoint import Checkpoint
 from planner_ft.skills.dynamics import Dynamics, published_vessel
-from planner_ft.skills.followers import Oracle
+from planner_ft.skills.episodes import oracle
+from planner_ft.skills.policies import Checkpoint
 from planner_ft.skills.survey import Survey, Task
 from planner_ft.skills.surveyor import Memory, Surveyor
 from planner_ft.skills.tracker import Tracker
-
-Report = Callable[[str, int, int], None]
-
+from planner_ft.support.terminal import Report
 
 WIDER: dict[str, Any] = {
     "size": (1.5, 10.0),
@@ -35,7 +32,7 @@ WIDER: dict[str, Any] = {
 
 
 @dataclass(frozen=True)
-class ImitationSettings:
+class Settings:
     """`environments` drive `options` an iteration; then `updates` of `minibatch` samples of the
     last `kept` ones.
     """
@@ -59,11 +56,11 @@ class ImitationSettings:
 
 
 def train(
-    settings: ImitationSettings, tracker: Tracker, folder: Path, resume: bool, report: Report
+    settings: Settings, tracker: Tracker, folder: Path, resume: bool, report: Report
 ) -> dict[str, Any]:
     """Train our policy; it and the losses."""
     torch.manual_seed(settings.seed)
-    pupil, teacher = Surveyor("ours", 0.3), Oracle()
+    pupil = Surveyor("ours", 0.3)
     optimizer = torch.optim.Adam(pupil.parameters(), lr=settings.rate)
     schedule = torch.optim.lr_scheduler.CosineAnnealingLR(
         optimizer, settings.iterations, settings.rate / 20
@@ -72,44 +69,38 @@ def train(
     drawn = np.random.default_rng([settings.seed, 11])
     task = Task(rounding=settings.rounding, lost=settings.lost, **WIDER)
     world = Survey(task, settings.environments, Dynamics(published_vessel()), tracker, drawn)
-    pupil.memory = Memory(settings.environments)
-    kept = Checkpoint(folder, asdict(settings), pupil, optimizer, schedule)
+    memory = pupil.memory = Memory(settings.environments)
+    kept = Checkpoint(folder, settings, random, pupil, optimizer, schedule, resume=resume)
     seen, wanted = torch.zeros(0, 132), torch.zeros(0, 2)
-    done = kept.restore(random) if resume else 0
-    if done:
+    if kept.done:
         world.restore(kept.more["world"])
         seen, wanted = kept.more["seen"], kept.more["wanted"]
-        pupil.memory.points, pupil.memory.at = kept.more["memory"]
-    for iteration in range(done, settings.iterations):
-        by_teacher = iteration < settings.teacher
-        new, said = _drive(world, pupil, teacher, by_teacher, settings, random)
+        memory.points, memory.at = kept.more["memory"]
+
+    def more() -> dict[str, Any]:
+        kept_memory = memory.points, memory.at
+        return {"world": world.snapshot(), "seen": seen, "wanted": wanted, "memory": kept_memory}
+
+    while kept.done < settings.iterations:
+        by_teacher = kept.done < settings.teacher
+        new, said = _drive(world, pupil, by_teacher, settings, random)
         seen = torch.cat([seen, new])[-settings.kept :]
         wanted = torch.cat([wanted, said])[-settings.kept :]
         loss = _learn(pupil, optimizer, seen, wanted, settings, random)
         schedule.step()
-        kept.add({"iteration": iteration + 1, "loss": loss})
-        report(f"imitation, loss {loss:.4f}", iteration + 1, settings.iterations)
-        if kept.due(iteration + 1, settings.iterations):
-            memory = pupil.memory.points, pupil.memory.at
-            more = {"world": world.snapshot(), "seen": seen, "wanted": wanted, "memory": memory}
-            kept.save(iteration + 1, random, more)
+        kept.advance(f"imitation, loss {loss:.4f}", report, {"loss": loss}, more)
     return {"policy": pupil, "losses": kept.log}
 
 
 @torch.no_grad()
 def _drive(
-    world: Survey,
-    pupil: Surveyor,
-    teacher: Oracle,
-    by_teacher: bool,
-    settings: ImitationSettings,
-    random: torch.Generator,
+    world: Survey, pupil: Surveyor, by_teacher: bool, settings: Settings, random: torch.Generator
 ) -> tuple[Tensor, Tensor]:
     """What the pupil saw (n, 132), and what the teacher would have done there (n, 2)."""
     seen, wanted = [], []
     for _option in range(settings.options):
         seen.append(pupil.observe(world))
-        wanted.append(teacher(world))
+        wanted.append(oracle(world))
         action = wanted[-1] if by_teacher else pupil(seen[-1])
         noise = settings.noise * torch.randn(action.shape, generator=random)
         ended = world.step((action + noise).clamp(-1, 1))
@@ -122,7 +113,7 @@ def _learn(
     optimizer: torch.optim.Optimizer,
     seen: Tensor,
     wanted: Tensor,
-    settings: ImitationSettings,
+    settings: Settings,
     random: torch.Generator,
 ) -> float:
     """The mean squared error of the actions over some minibatches."""

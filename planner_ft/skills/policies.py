@@ -1,10 +1,13 @@
-"""Policy files: frozen weights as safetensors with what they are for, a card and a manifest."""
+"""The files of a skill: a policy's frozen weights as safetensors with what they are for, a card and
+a manifest, and while it is trained the checkpoints of a killed training, which goes on with the
+same losses.
+"""
 
 from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +18,6 @@ from safetensors.torch import save
 from torch import nn
 
 from planner_ft.simulation.vessel import Vessel
-from planner_ft.skills.checkpoint import weights_of
 from planner_ft.skills.surveyor import Surveyor
 from planner_ft.skills.tracker import Tracker
 from planner_ft.support.errors import PlannerError
@@ -24,15 +26,27 @@ from planner_ft.support.files import (
     compact_json,
     sha256_file,
     write_json,
+    write_jsonl,
     write_text,
 )
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.templates import text_template
+from planner_ft.support.terminal import Report
 
 SHIPPED = Path(__file__).with_name("policies")
 WEIGHTS, CARD, MANIFEST = "policy.safetensors", "README.md", "manifest.json"
+STATE, LOG = "checkpoint.pt", "log.jsonl"
 SKILLS = ("goto", "hold", "survey")
 SAME = ("drive", "mass", "drag", "thrust", "track", "length", "width")
 """What a vehicle must share with the one that a policy was trained for."""
+HOW = {
+    "goto": "Six numbers of the goal become commanded surge and yaw rate",
+    "hold": "As GoToXY, at a place, the goal's heading against the current",
+    "survey": "64 LiDAR ranges and four numbers become the next waypoint of GoToXY",
+}
+"""What a policy maps to what, for its card."""
+EVERY = 20
+"""Iterations between two checkpoints."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +75,8 @@ def write_policy(
     """Write weights, card and manifest; `trained` has the settings, their seed, and what came."""
     about = {"skill": skill, "recipe": recipe, "vessel": compact_json(asdict(vessel))}
     with atomic_writer(folder / WEIGHTS, "wb") as stream:
-        stream.write(save(weights_of(module), about))
+        weights = {name: one.detach().contiguous() for name, one in module.state_dict().items()}
+        stream.write(save(weights, about))
     settings, result = trained["settings"], trained["result"]
     inputs: dict[str, Path | str] = {"policy": folder / WEIGHTS, **trained.get("inputs", {})}
     manifest = build_manifest(
@@ -75,17 +90,17 @@ def write_policy(
         k: {**v, "path": Path(v["path"]).name} for k, v in manifest["inputs"].items()
     }
     write_json(folder / MANIFEST, manifest)
-    write_text(folder / CARD, _card(skill, recipe, module, settings, result))
-
-
-def read_policy(skill: str, folder: Path | None = None) -> Policy:
-    """The policy in a folder, or the one that ships. Raises PlannerError."""
-    return _read(skill, folder or SHIPPED / skill)
+    kept = ", ".join(f"{name} {value}" for name, value in {**settings, **result}.items())
+    count = sum(value.numel() for value in module.parameters())
+    card = text_template("planner_ft.skills", "card.md.j2")
+    shown = card.render(skill=skill, how=HOW[skill], recipe=recipe, count=count, kept=kept)
+    write_text(folder / CARD, shown + "\n")
 
 
 @functools.cache
-def _read(skill: str, folder: Path) -> Policy:
-    path = folder / WEIGHTS
+def read_policy(skill: str, folder: Path | None = None) -> Policy:
+    """The policy in a folder, or the one that ships. Raises PlannerError."""
+    path = (folder or SHIPPED / skill) / WEIGHTS
     if not path.is_file():
         way = "give a folder that `plannerft skill train` wrote"
         raise PlannerError(f"{path}: is not there; {way}")
@@ -115,30 +130,71 @@ def digest(skill: str, folder: Path | None = None) -> str:
     return sha256_file((folder or SHIPPED / skill) / WEIGHTS)
 
 
-def _card(
-    skill: str,
-    recipe: str,
-    module: nn.Module,
-    settings: Mapping[str, Any],
-    result: Mapping[str, Any],
-) -> str:
-    count = sum(value.numel() for value in module.parameters())
-    kept = ", ".join(f"{name} {value}" for name, value in {**settings, **result}.items())
-    how = {
-        "goto": "six numbers of the goal become commanded surge and yaw rate",
-        "hold": "as GoToXY, at a place, the goal's heading against the current",
-        "survey": "64 LiDAR ranges and four numbers become the next waypoint of GoToXY",
-    }[skill]
-    return f"""# Policy of the skill {skill}
-
-{how[0].upper()}{how[1:]}. Recipe: {recipe}; {count:,} weights, for the vehicle in the file's metadata.
-
-Made by `plannerft skill train {skill}`: {kept}.
-
-`plannerft skill bench {skill}` measures it beside its baselines. For simulation: nobody has tried it on the water.
-"""
-
-
 def torch_threads() -> None:
     """One thread: batches are small, and runs are many."""
     torch.set_num_threads(1)
+
+
+class Checkpoint:
+    """The state of a training in a folder: its settings (a dataclass with `iterations`), generator
+    and `parts`, which have `state_dict` and `load_state_dict`. `done` counts iterations, `log` has
+    a line for each, `more` is what the parts do not hold, as it was when a killed one was saved.
+    """
+
+    def __init__(
+        self, folder: Path, settings: Any, random: torch.Generator, *parts: Any, resume: bool
+    ) -> None:
+        """Take up what was saved, if `resume`. Raises PlannerError for other settings."""
+        self.folder, self.settings, self.random, self.parts = folder, settings, random, parts
+        self.done, self.log = 0, list[dict[str, Any]]()
+        self.more: Any = None
+        if resume and (folder / STATE).is_file():
+            self._restore(folder / STATE)
+
+    def advance(
+        self,
+        label: str,
+        report: Report,
+        line: Mapping[str, Any],
+        more: Callable[[], Any] = lambda: None,
+        *,
+        every: int = 1,
+        last: bool = False,
+    ) -> None:
+        """Note an iteration that is done, and write everything when that is due: after the `last`
+        one, and `every` times as often as EVERY says.
+        """
+        self.done += 1
+        self.log.append({"iteration": self.done, **line})
+        report(label, self.done, self.settings.iterations)
+        last = last or self.done == self.settings.iterations
+        if not (last or every * self.done % EVERY == 0):
+            return
+        state = {
+            "done": self.done,
+            "settings": asdict(self.settings),
+            "parts": [part.state_dict() for part in self.parts],
+            "random": self.random.get_state(),
+            "torch": torch.get_rng_state(),
+            "log": self.log,
+            "more": more(),
+        }
+        with atomic_writer(self.folder / STATE, "wb") as stream:
+            torch.save(state, stream)
+        write_jsonl(self.folder / LOG, self.log)
+
+    def _restore(self, path: Path) -> None:
+        try:
+            state = torch.load(path, weights_only=True)
+            own, kept = asdict(self.settings), state["settings"]
+        except (RuntimeError, KeyError, EOFError, OSError) as error:
+            problem = f"is no checkpoint ({error})"
+            raise PlannerError(f"{path}: {problem}; start without --resume") from None
+        if different := [name for name, value in own.items() if kept.get(name) != value]:
+            hint = "give the same settings, or another --out"
+            raise PlannerError(f"{path}: was made with another {different[0]}; {hint}")
+        for part, values in zip(self.parts, state["parts"], strict=True):
+            part.load_state_dict(values)
+        self.random.set_state(state["random"])
+        torch.set_rng_state(state["torch"])
+        self.done, self.log, self.more = int(state["done"]), state["log"], state["more"]

@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,20 +15,20 @@ import torch
 from torch import Tensor, nn
 from torchrl.objectives.value.functional import generalized_advantage_estimate
 
-from planner_ft.skills.checkpoint import Checkpoint
 from planner_ft.skills.dynamics import Dynamics, published_vessel
 from planner_ft.skills.option import Compiled
+from planner_ft.skills.policies import Checkpoint
 from planner_ft.skills.survey import NUMBERS, Survey, Task
 from planner_ft.skills.surveyor import Surveyor
 from planner_ft.skills.tracker import Tracker
+from planner_ft.support.terminal import Report
 
-Report = Callable[[str, int, int], None]
 L3 = (1 / 7, 1 / 7, 3 / 7, 1 / 7, 1 / 7)
 """The published oversampling: the L in 3 of 7 draws."""
 
 
 @dataclass(frozen=True)
-class PpoSettings:
+class Settings:
     """The published settings. `frames` are options of a batch, over all `environments`."""
 
     seed: int = 0
@@ -72,7 +71,7 @@ class Batch:
 class Learner:
     """Actor, critic, loss and optimizer."""
 
-    def __init__(self, settings: PpoSettings) -> None:
+    def __init__(self, settings: Settings) -> None:
         self.settings, self.surveyor = settings, Surveyor("published")
         self.critic = self.surveyor.critic()
         self.nets = nn.ModuleList([self.surveyor, self.critic])
@@ -151,7 +150,7 @@ def density(drawn: Tensor, location: Tensor, spread: Tensor) -> Tensor:
 
 
 def train(
-    settings: PpoSettings, tracker: Tracker, folder: Path, resume: bool, report: Report
+    settings: Settings, tracker: Tracker, folder: Path, resume: bool, report: Report
 ) -> dict[str, Any]:
     """Train by the published recipe; the best policy, and a log line per iteration."""
     torch.manual_seed(settings.seed)
@@ -161,26 +160,27 @@ def train(
     many = settings.environments
     world = Survey(settings.task, many, dynamics, tracker, drawn, compiled=True)
     random = torch.Generator().manual_seed(settings.seed)
-    kept = Checkpoint(folder, asdict(settings), learner.nets, learner.optimizer)
+    kept = Checkpoint(folder, settings, random, learner.nets, learner.optimizer, resume=resume)
     best: dict[str, Any] = {"reward": -math.inf, "iteration": 0, "weights": {}}
-    done = kept.restore(random) if resume else 0
-    if done:
+    if kept.done:
         world.restore(kept.more["world"])
         best = kept.more["best"]
-    while done < settings.iterations and done - best["iteration"] < settings.patience:
+
+    def more() -> dict[str, Any]:
+        return {"world": world.snapshot(), "best": best}
+
+    while kept.done < settings.iterations and kept.done - best["iteration"] < settings.patience:
         batch, ended = collect(world, learner, settings.frames // many, random)
         reward = float(batch.reward.mean())
         if reward > best["reward"]:
             weights = copy.deepcopy(learner.surveyor.state_dict())
-            best = {"reward": reward, "iteration": done + 1, "weights": weights}
+            best = {"reward": reward, "iteration": kept.done + 1, "weights": weights}
         loss = learner.learn(batch, random)
         share = {name: ended.count(name) for name in sorted(set(ended))}
-        done += 1
-        kept.add({"iteration": done, "reward": reward, "loss": loss, **share})
-        report(f"PPO, mean reward {reward:.2f}", done, settings.iterations)
-        over = done - best["iteration"] >= settings.patience
-        if over or kept.due(5 * done, 5 * settings.iterations):
-            kept.save(done, random, {"world": world.snapshot(), "best": best})
+        line = {"reward": reward, "loss": loss, **share}
+        last = kept.done + 1 - best["iteration"] >= settings.patience
+        label = f"PPO, mean reward {reward:.2f}"
+        kept.advance(label, report, line, more, every=5, last=last)
     learner.surveyor.load_state_dict(best["weights"])
     result = {"best": best["iteration"], "reward": best["reward"]}
     return {"policy": learner.surveyor, "losses": kept.log, "result": result}

@@ -1,4 +1,4 @@
-"""Outlines of structures: the five published families, held-out ones, and four named structures.
+"""Outlines of structures: the five published families and held-out ones.
 
 An outline (150, 2) in m has its points counter-clockwise, evenly by arc length (published). Where
 the study gives a shape's proportions and no size, its corners lie about the base radius off its
@@ -12,10 +12,10 @@ from collections.abc import Callable
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 from shapely import affinity
 
-Floats = NDArray[np.float64]
+from planner_ft.simulation.fast import Floats
+
 POINTS = 150
 RADIUS = (3.0, 10.0)
 Draw = Callable[[np.random.Generator], shapely.Polygon]
@@ -25,8 +25,8 @@ def _circle(random: np.random.Generator) -> shapely.Polygon:
     return shapely.Point(0, 0).buffer(1.0, quad_segs=40)
 
 
-def _box(random: np.random.Generator, low: float = 0.65, high: float = 1.45) -> tuple[float, float]:
-    aspect = math.sqrt(random.uniform(low, high))
+def _box(random: np.random.Generator) -> tuple[float, float]:
+    aspect = math.sqrt(random.uniform(0.65, 1.45))
     return aspect / math.sqrt(2), 1 / aspect / math.sqrt(2)
 
 
@@ -92,13 +92,6 @@ PUBLISHED: dict[str, Draw] = {
 }
 HELD_OUT: dict[str, Draw] = {"star": _star, "U": _u, "two circles": _joined}
 FAMILIES = PUBLISHED | HELD_OUT
-DOCKS: dict[str, shapely.Polygon] = {
-    "rectangular dock": shapely.box(-8, -2, 8, 2),
-    "buoy Durius": shapely.Point(0, 0).buffer(2.0, quad_segs=40),
-    "L dock": shapely.box(-4, -4, 4, 4).difference(shapely.box(-1, -1, 9, 9)),
-    "T dock": shapely.box(-5, 1, 5, 4).union(shapely.box(-1.5, -4, 1.5, 1)),
-}
-"""Structures of the published second simulator; its arms' breadth and the buoy are assumed."""
 
 
 def draw_outline(

@@ -18,10 +18,11 @@ import shapely
 import torch
 from torch import Tensor
 
+from planner_ft.simulation.fast import Floats
 from planner_ft.skills import geometry
 from planner_ft.skills.dynamics import CURRENT, Dynamics, turned
 from planner_ft.skills.option import Before, Compiled, Way, advance, judge
-from planner_ft.skills.shapes import POINTS, RADIUS, Floats, draw_outline, offset_path
+from planner_ft.skills.shapes import POINTS, RADIUS, draw_outline, offset_path
 from planner_ft.skills.tracker import Tracker
 
 OPTION = 15
@@ -39,7 +40,6 @@ WAY = 256
 NUMBERS = geometry.RAYS + 4
 NAMES = ("collision", "success", "lost", "late")
 Cast = Callable[[Tensor, Tensor], Tensor]
-Wrap = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
 @dataclass(frozen=True)
@@ -118,9 +118,8 @@ class Survey:
         self.lap, self.left = torch.zeros(count), torch.zeros(count)
         self.options, self.time = torch.zeros(count), torch.zeros(count)
         self.off, self.length = torch.zeros(count), torch.zeros(count)
-        wrap: Wrap = Compiled if compiled else _plain
-        self.advance, self.cast = wrap(advance), wrap(geometry.ranges)
-        self.judge = wrap(judge)
+        wrap: Callable[[Any], Callable[..., Any]] = Compiled if compiled else lambda one: one
+        self.advance, self.cast, self.judge = wrap(advance), wrap(geometry.ranges), wrap(judge)
         self.reset(range(count))
 
     @property
@@ -212,10 +211,6 @@ class Survey:
         kinds = torch.stack([now.hit, lap, lost, late], dim=1).tolist()
         outcome = [next((n for n, so in zip(NAMES, k, strict=True) if so), None) for k in kinds]
         return Ended(reward, terminated, lap | late, now.steps, outcome)
-
-
-def _plain(function: Callable[..., Any]) -> Callable[..., Any]:
-    return function
 
 
 def _spawn(

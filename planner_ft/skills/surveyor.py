@@ -13,8 +13,6 @@ from planner_ft.skills.survey import NUMBERS, Survey
 
 WIDTH, DEPTH = 128, 3
 SIGMA_MIN = 1e-3
-SIGMA_BIAS = math.log(math.e - 1)
-"""softplus of it is 1: the spread that a policy begins with (published)."""
 SCANS = 8
 """Past scans that the memory keeps."""
 

@@ -1,13 +1,16 @@
-"""The policies of GoToXY and StationKeep: six numbers of the goal become two speeds."""
+"""Who drives to a goal: the policies of GoToXY and StationKeep, which make two speeds of six
+numbers of the goal, and guidance beside them.
+"""
 
 from __future__ import annotations
 
 import torch
 from torch import Tensor, nn
 
+from planner_ft.simulation.guidance import BRAKE, SLOW
 from planner_ft.skills.dynamics import turned, wrapped
 
-INPUTS, HIDDEN = 6, 64
+HIDDEN = 64
 FAR, NEAR = 10.0, 0.3
 """Metres at which a position is clipped, and that tell near goals apart."""
 CLOSE = 1.5
@@ -61,3 +64,22 @@ class Tracker(nn.Module):
         """Commanded surge in m/s and yaw rate in rad/s (B, 2)."""
         made: Tensor = self(relative(state, goal)) * self.limits
         return made
+
+
+class Guidance:
+    """Course to the goal by a proportional controller, speed by the distance that is left, as
+    `simulation.guidance` steers to the end of a way.
+    """
+
+    def __init__(self, tracker: Tracker) -> None:
+        self.limits = tracker.limits
+
+    def command(self, state: Tensor, goal: Tensor) -> Tensor:
+        """Commanded surge in m/s and yaw rate in rad/s (B, 2)."""
+        to = goal[:, :2] - state[:, :2]
+        left = to.norm(dim=1)
+        slip = torch.atan2(state[:, 4], state[:, 3].clamp_min(0.3)) * (state[:, 3] > 0.3)
+        error = wrapped(torch.atan2(to[:, 1], to[:, 0]) - state[:, 2] - slip)
+        speed = (SLOW + torch.sqrt(2 * BRAKE * left)).minimum(self.limits[0])
+        turn = (0.9 * error).clamp(-self.limits[1], self.limits[1])
+        return torch.stack([speed * torch.cos(error).clamp(0, 1) ** 2, turn], dim=1)

@@ -9,23 +9,21 @@ policies were actor-critics; task, inputs and outputs are theirs.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import torch
 from torch import Tensor
 
-from planner_ft.skills.checkpoint import Checkpoint
 from planner_ft.skills.dynamics import Dynamics, published_vessel, wrapped
+from planner_ft.skills.policies import Checkpoint
 from planner_ft.skills.tracker import Tracker, aimed, relative
-
-Report = Callable[[str, int, int], None]
+from planner_ft.support.terminal import Report
 
 
 @dataclass(frozen=True)
-class TrackingSettings:
+class Settings:
     """Episodes (`batch`) of `steps` time steps an iteration; `current` in m/s at most."""
 
     skill: str = "goto"
@@ -92,7 +90,7 @@ def cost(skill: str, state: Tensor, goal: Tensor, made: Tensor, before: Tensor) 
     return far / 5 + far / (1 + far) + 0.03 * off + astray + fast + 0.005 * jerk
 
 
-def train(settings: TrackingSettings, folder: Path, resume: bool, report: Report) -> dict[str, Any]:
+def train(settings: Settings, folder: Path, resume: bool, report: Report) -> dict[str, Any]:
     """Train a policy and keep checkpoints in `folder`; the state of the policy and its losses."""
     torch.manual_seed(settings.seed)
     vessel = published_vessel()
@@ -102,21 +100,17 @@ def train(settings: TrackingSettings, folder: Path, resume: bool, report: Report
         optimizer, settings.iterations, settings.rate / 30
     )
     random = torch.Generator().manual_seed(settings.seed)
-    kept = Checkpoint(folder, asdict(settings), policy, optimizer, schedule)
-    done = kept.restore(random) if resume else 0
+    kept = Checkpoint(folder, settings, random, policy, optimizer, schedule, resume=resume)
     dynamics = Dynamics(vessel, leak=True)
-    for iteration in range(done, settings.iterations):
+    while kept.done < settings.iterations:
         loss = _iterate(settings, policy, optimizer, dynamics, random)
         schedule.step()
-        kept.add({"iteration": iteration + 1, "loss": loss})
-        report(f"{settings.skill}, loss {loss:.3f}", iteration + 1, settings.iterations)
-        if kept.due(iteration + 1, settings.iterations):
-            kept.save(iteration + 1, random)
+        kept.advance(f"{settings.skill}, loss {loss:.3f}", report, {"loss": loss})
     return {"policy": policy, "losses": kept.log}
 
 
 def _iterate(
-    settings: TrackingSettings,
+    settings: Settings,
     policy: Tracker,
     optimizer: torch.optim.Optimizer,
     dynamics: Dynamics,

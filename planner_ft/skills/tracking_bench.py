@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from planner_ft.benchmark.statistics import bootstrap_mean, wilson
+from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Running, Stage
-from planner_ft.simulation.fast import FastSimulator
-from planner_ft.simulation.faults import Faults
+from planner_ft.simulation.fast import Bools, FastSimulator, Floats
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job
 from planner_ft.simulation.world import World
@@ -20,12 +19,12 @@ from planner_ft.skills.dynamics import published_vessel
 from planner_ft.skills.policies import Policy
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.tables import Table, TableRow, figure, row
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.motion import Motion
 
 if TYPE_CHECKING:
     from planner_ft.skills.bench import SkillBench
 
-Report = Callable[[str, int, int], None]
 CURRENTS = {"published current": 1.0, "twice the published current": 2.0}
 AWAY = (5.0, 30.0)
 """Metres from a goal at the start."""
@@ -65,12 +64,9 @@ def tracking_table(request: SkillBench, policies: Sequence[Policy], report: Repo
     return Table("", COLUMNS[skill], rows, name=skill, caption=CAPTION)
 
 
-Floats = NDArray[np.float64]
-
-
 def measure(
     request: SkillBench, settings: dict[str, Any], factor: float
-) -> tuple[NDArray[np.bool_], Floats, Floats]:
+) -> tuple[Bools, Floats, Floats]:
     """Which episodes came to their end, and two figures of each (n,)."""
     hold, count = request.skill == "hold", request.episodes
     random = np.random.default_rng([request.seed, 17])
@@ -120,12 +116,7 @@ def _scene(count: int, hold: bool, factor: float, seed: int, random: np.random.G
     return Scene(world, FastSimulator(vessel, count), starts, Origin(0.0, 0.0), lambda _r, _l: None)
 
 
-def _row(
-    name: str, arrived: NDArray[np.bool_], first: Floats, second: Floats, seed: int
-) -> TableRow:
+def _row(name: str, arrived: Bools, first: Floats, second: Floats, seed: int) -> TableRow:
     rate = wilson(int(arrived.sum()), len(arrived))
-    cells = [figure(rate.value, rate.low, rate.high, scale=100, decimals=0)]
-    for values in (first, second):
-        mean = bootstrap_mean(values.tolist(), range(len(values)), seed)
-        cells.append(figure(mean.value, mean.low, mean.high))
-    return row(name, *cells)
+    means = (bootstrap_mean(one.tolist(), range(len(one)), seed) for one in (first, second))
+    return row(name, rate.cell(scale=100, decimals=0), *(one.cell() for one in means))

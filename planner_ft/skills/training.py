@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from planner_ft.skills.dynamics import published_vessel
 from planner_ft.skills.policies import (
     CARD,
+    LOG,
     MANIFEST,
     SHIPPED,
     SKILLS,
+    STATE,
     WEIGHTS,
     read_policy,
     torch_threads,
@@ -20,8 +24,8 @@ from planner_ft.skills.policies import (
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import make_folder
+from planner_ft.support.terminal import Report
 
-Report = Callable[[str, int, int], None]
 RECIPES = ("ours", "published")
 SAMPLING = ("uniform", "l3")
 TERMS = ("standoff", "progress", "visibility")
@@ -63,24 +67,21 @@ class SkillTraining:
         if self.goto and self.skill != "survey":
             raise PlannerError("--goto: is of `skill train survey` alone; leave it out")
 
+    @property
+    def module(self) -> Any:
+        """The module that trains by the recipe. Raises PlannerError without what it needs."""
+        name = {"ours": "imitation", "published": "ppo"}[self.recipe]
+        try:
+            return import_module(f"{__package__}.{name if self.skill == 'survey' else 'tracking'}")
+        except ImportError:
+            raise PlannerError(f"--recipe {self.recipe}: {NO_EXTRA}") from None
+
     def settings(self) -> Any:
         """The settings of the recipe. Raises PlannerError."""
-        kind: Any
-        more: dict[str, Any] = {"seed": self.seed}
-        if self.skill != "survey":
-            from planner_ft.skills.tracking import HOLD
-            from planner_ft.skills.tracking import TrackingSettings as kind
-
-            more |= HOLD if self.skill == "hold" else {"skill": self.skill}
-        elif self.recipe == "ours":
-            from planner_ft.skills.imitation import ImitationSettings as kind
-        else:
-            try:
-                from planner_ft.skills.ppo import PpoSettings as kind
-            except ImportError:
-                raise PlannerError(f"--recipe published: {NO_EXTRA}") from None
-            more |= {"sampling": self.sampling, "without": self.without}
+        kind, more = self.module.Settings, {"seed": self.seed}
         known = {one.name for one in fields(kind)}
+        more |= self.module.HOLD if self.skill == "hold" else {}
+        more |= {name: getattr(self, name) for name in ("sampling", "without") if name in known}
         for name, value in (self.changes or {}).items():
             if name not in known:
                 raise PlannerError(f"--{name}: this recipe has no such setting; leave it out")
@@ -97,15 +98,11 @@ def train_skill(request: SkillTraining, report: Report) -> dict[str, Any]:
         _check_free(request)
         torch_threads()
         trained = _train(request, settings, report)
-        log = trained["losses"]
-        result = {"iterations": len(log), **trained.get("result", {})}
-        inputs = trained.get("inputs", {})
-        from planner_ft.skills.dynamics import published_vessel
-
+        result = {"iterations": len(trained["losses"]), **trained.get("result", {})}
+        kept = {"settings": asdict(settings), "result": result, "inputs": trained.get("inputs", {})}
         recipe = request.recipe if request.skill == "survey" else "ours"
-        kept = {"settings": asdict(settings), "result": result, "inputs": inputs}
-        module = trained["policy"]
-        write_policy(request.out, request.skill, recipe, module, published_vessel(), kept)
+        made = trained["policy"], published_vessel(), kept
+        write_policy(request.out, request.skill, recipe, *made)
     return result
 
 
@@ -126,27 +123,15 @@ def train_all(root: Path, report: Report, *, seed: int, resume: bool, overwrite:
 
 
 def _train(request: SkillTraining, settings: Any, report: Report) -> dict[str, Any]:
-    where = request.out, request.resume, report
+    where, train = (request.out, request.resume, report), request.module.train
     if request.skill != "survey":
-        from planner_ft.skills.tracking import train
-
-        return train(settings, *where)
-    tracker: Any = read_policy("goto", request.goto).module
-    if request.recipe == "ours":
-        from planner_ft.skills.imitation import train as imitate
-
-        trained = imitate(settings, tracker, *where)
-    else:
-        from planner_ft.skills.ppo import train as optimise
-
-        trained = optimise(settings, tracker, *where)
+        return dict(train(settings, *where))
+    trained = train(settings, read_policy("goto", request.goto).module, *where)
     return {**trained, "inputs": {"goto": (request.goto or SHIPPED / "goto") / WEIGHTS}}
 
 
 def _check_free(request: SkillTraining) -> None:
     """Refuse a folder with another training, and with other files."""
-    from planner_ft.skills.checkpoint import LOG, STATE
-
     ours = {WEIGHTS, CARD, MANIFEST, STATE, LOG}
     found = {path.name for path in request.out.iterdir() if not path.name.startswith(".")}
     if foreign := sorted(found - ours):

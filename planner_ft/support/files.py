@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import hashlib
 import json
 import os
@@ -187,6 +188,11 @@ def read_jsonl(path: Path | str) -> list[dict[str, Any]]:
     if not records:
         raise PlannerError(f"{path}: holds no records")
     return records
+
+
+def read_csv(path: Path | str) -> list[dict[str, str]]:
+    """The lines of a CSV file by its headings. Raises PlannerError."""
+    return list(csv.DictReader(read_text(path).splitlines()))
 
 
 def sha256_file(path: Path | str) -> str:

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+Report = Callable[[str, int, int], None]
+"""Progress: called with a label, how many are done and how many there are in all of that part."""
 
 
 def plain(text: str, kept: str = "") -> str:

@@ -742,10 +742,10 @@ def test_costs_are_in_the_results(settings: Any, tmp_path: Path) -> None:
 def test_planning_is_timed_with_both_agents_and_only_once(
     tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from planner_ft.benchmark import planning_time
+    from planner_ft.benchmark import runner
 
     monkeypatch.delenv("PLANNERFT_MODELS")
-    monkeypatch.setattr(planning_time, "MOST", 2)
+    monkeypatch.setattr(runner, "MOST", 2)
     common: dict[str, Any] = {
         "level": "mission",
         "candidates": ("embedded",),

@@ -14,7 +14,7 @@ import torch
 from safetensors import safe_open
 from safetensors.torch import load_file, save_file
 
-from planner_ft.simulation.outlines import read_outlines
+from planner_ft.simulation.asked import read_outlines
 from planner_ft.simulation.run import Simulated, SimulationSettings
 from planner_ft.skills.policies import SHIPPED
 from planner_ft.support.errors import PlannerError

@@ -12,7 +12,7 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 import planner_ft.simulation
-from planner_ft.simulation.ros_log import TOPICS, definition
+from planner_ft.simulation.logs import TOPICS, definition
 from tests.documents import DRONE, step, task
 
 from .conftest import Run

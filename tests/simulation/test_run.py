@@ -18,8 +18,8 @@ from mcap.stream_reader import StreamReader
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.review import log_beside, reject
+from planner_ft.simulation.asked import read_faults
 from planner_ft.simulation.executor import Executor
-from planner_ft.simulation.faults import read_faults
 from planner_ft.simulation.run import Simulated, SimulationSettings, simulate
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary

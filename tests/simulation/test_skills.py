@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.simulation.faults import read_faults
-from planner_ft.simulation.outlines import read_outlines
+from planner_ft.simulation.asked import read_faults, read_outlines
 from tests.documents import DRONE, USV, step, task
 
 from .conftest import Run

@@ -56,8 +56,8 @@ def test_a_command_becomes_runs_in_both_simulators(tmp_path: Path) -> None:
     path = written(tmp_path, mission("One"), mission("Two", 18, SURVEYED))
     done = ran(path, tmp_path / "out")
     both = ("fast", "mujoco")
-    assert list(done.results) == [(name, one) for name in ("One", "Two") for one in both]
-    for result in done.results.values():
+    assert list(done) == [(name, one) for name in ("One", "Two") for one in both]
+    for result in done.values():
         assert result["approved"] and result["overall"]["success"]["value"] == 1
         assert result["command"].startswith("Find Durius")
     plan = tmp_path / "out" / "one" / "plan.json"
@@ -90,7 +90,7 @@ def test_a_killed_suite_goes_on(tmp_path: Path) -> None:
     kept = [out / "one" / "fast" / "results.json", out / "two" / "plan.json"]
     before = [one.stat().st_mtime_ns for one in kept]
     assert (out / "two" / "fast" / "run-01.jsonl").exists()
-    assert len(ran(path, out).results) == 2
+    assert len(ran(path, out)) == 2
     assert [one.stat().st_mtime_ns for one in kept] == before
     ran(path, tmp_path / "whole")
     assert (out / "table.md").read_text() == (tmp_path / "whole" / "table.md").read_text()
@@ -102,7 +102,7 @@ def test_another_suite_needs_another_folder(tmp_path: Path) -> None:
     other = written(tmp_path, mission("One", 21), head=head)
     with pytest.raises(PlannerError, match=r"results of another suite than .*--overwrite"):
         ran(other, out)
-    assert len(ran(other, out, overwrite=True).results) == 1
+    assert len(ran(other, out, overwrite=True)) == 1
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("mine")
     for overwrite in (False, True):

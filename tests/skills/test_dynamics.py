@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
-from planner_ft.simulation.control import Autopilot
 from planner_ft.simulation.fast import FastSimulator
+from planner_ft.simulation.scene import Autopilot
 from planner_ft.skills.dynamics import Dynamics, published_vessel
 
 COUNT = 16

@@ -10,13 +10,12 @@ import pytest
 import torch
 
 from planner_ft.skills.dynamics import Dynamics, published_vessel
-from planner_ft.skills.episodes import play
-from planner_ft.skills.followers import Follower, Guidance, Oracle
+from planner_ft.skills.episodes import contour_follower, oracle, play
 from planner_ft.skills.option import Compiled
 from planner_ft.skills.shapes import PUBLISHED
 from planner_ft.skills.survey import Survey, Task, action_of, waypoint
 from planner_ft.skills.surveyor import Memory, Surveyor
-from planner_ft.skills.tracker import Tracker
+from planner_ft.skills.tracker import Guidance, Tracker
 
 GUIDANCE = Guidance(Tracker((2.3, 0.43)))
 
@@ -84,7 +83,7 @@ def test_ends_and_rewards() -> None:
 
 def test_the_oracle_goes_round_every_shape_and_the_follower_too() -> None:
     families = [family for family in PUBLISHED for _each in range(2)]
-    for actor, most in ((Oracle(), 0.3), (Follower(), 0.8)):
+    for actor, most in ((oracle, 0.3), (contour_follower, 0.8)):
         found = play(actor, GUIDANCE, Task(rounding=1.5), families, 1)  # type: ignore[arg-type]
         assert [one.outcome for one in found] == ["success"] * 10
         assert np.mean([one.error for one in found]) < most

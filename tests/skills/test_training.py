@@ -12,7 +12,7 @@ import pytest
 import torch
 from safetensors.torch import load_file
 
-from planner_ft.skills import checkpoint, imitation, tracking, training
+from planner_ft.skills import imitation, policies, tracking, training
 from planner_ft.skills.training import SkillTraining, train_skill
 from planner_ft.support.errors import PlannerError
 
@@ -56,7 +56,7 @@ def test_a_killed_training_goes_on_with_the_same_losses(
 ) -> None:
     if kind == "published":
         pytest.importorskip("torchrl")
-    monkeypatch.setattr(checkpoint, "EVERY", 2)
+    monkeypatch.setattr(policies, "EVERY", 2)
     train_skill(request(tmp_path / "whole", kind), quiet)
 
     def die(_label: str, done: int, _total: int) -> None:
@@ -106,7 +106,7 @@ def test_all_skills_are_trained_and_what_is_done_stays(
 
 
 def test_tracking_learns(tmp_path: Path) -> None:
-    settings = tracking.TrackingSettings("hold", iterations=16, batch=16, steps=20, window=20)
+    settings = tracking.Settings("hold", iterations=16, batch=16, steps=20, window=20)
     found = tracking.train(settings, tmp_path, False, quiet)["losses"]
     first, last = ([one["loss"] for one in some] for some in (found[:4], found[-4:]))
     assert sum(last) < 0.9 * sum(first)
@@ -115,7 +115,7 @@ def test_tracking_learns(tmp_path: Path) -> None:
 def test_imitation_learns(tmp_path: Path) -> None:
     from planner_ft.skills.policies import read_policy
 
-    settings = imitation.ImitationSettings(iterations=6, environments=8, options=4, teacher=6)
+    settings = imitation.Settings(iterations=6, environments=8, options=4, teacher=6)
     tracker: Any = read_policy("goto").module
     found = imitation.train(settings, tracker, tmp_path, False, quiet)["losses"]
     assert found[-1]["loss"] < 0.5 * found[0]["loss"]
@@ -123,10 +123,10 @@ def test_imitation_learns(tmp_path: Path) -> None:
 
 def learner_of(**changes: Any) -> Any:
     pytest.importorskip("torchrl")
-    from planner_ft.skills.ppo import Learner, PpoSettings
+    from planner_ft.skills.ppo import Learner, Settings
 
     torch.manual_seed(0)
-    return Learner(PpoSettings(**changes))
+    return Learner(Settings(**changes))
 
 
 def test_the_published_recipe_tries_other_actions_and_learns_from_them() -> None:

@@ -12,15 +12,7 @@ from typing import Any
 
 from planner_ft.benchmark.field.cases import Case, load_cases, load_demands
 from planner_ft.benchmark.field.checks import Outcome, passes
-from planner_ft.benchmark.folder import (
-    PLANS,
-    RESULTS,
-    SCORES,
-    Progress,
-    RecordLog,
-    check_folder,
-    clear,
-)
+from planner_ft.benchmark.folder import PLANS, RESULTS, SCORES, RecordLog, check_folder, clear
 from planner_ft.benchmark.statistics import Estimate, clustered_rate, wilson
 from planner_ft.planning import Planner
 from planner_ft.planning.settings import PlanSettings
@@ -34,6 +26,7 @@ from planner_ft.support.files import (
 )
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, markdown_table, row
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
@@ -213,7 +206,7 @@ def run_cases(
     vocabulary: Vocabulary,
     agents: Sequence[PlanSettings],
     new_plan: Callable[[Planner, bool], Plan],
-    progress: Progress,
+    progress: Report,
     *,
     limit: int | None = None,
     resume: bool = False,

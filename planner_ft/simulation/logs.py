@@ -1,4 +1,5 @@
-"""An MCAP file with ROS 2 messages of one run (https://mcap.dev), for Foxglove and rosbag2.
+"""The logs of runs, written while they go on: lines of JSON, and MCAP files with ROS 2 messages
+(https://mcap.dev), for Foxglove and rosbag2.
 
 Frames by REP-103 and REP-105: map is the plan's local frame (x east, y north), odom the same, as
 there is no odometry of its own, and base_link the vehicle.
@@ -6,6 +7,7 @@ there is no odometry of its own, and base_link the vehicle.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,12 +17,16 @@ from typing import IO, Any
 import numpy as np
 
 from planner_ft.document.track import Point
-from planner_ft.simulation.control import FIX_SIGMA
-from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.asked import Faults
+from planner_ft.simulation.executor import Executor
+from planner_ft.simulation.measures import Observer
+from planner_ft.simulation.scene import FIX_SIGMA, Scene
 from planner_ft.support.files import compact_json
 
 EVERY = 1.0
 """Seconds between two messages of a topic; odometry, commands and frames come in every step."""
+FLUSH, POSE = 5.0, 1.0
+"""Seconds of a run between two writes of its log to the disk, and between two of its poses."""
 CHUNK = 2**14
 """Bytes of messages that a kill may cost."""
 TOPICS = {
@@ -34,6 +40,65 @@ TOPICS = {
 }
 BREAK = "=" * 80
 Message = dict[str, Any]
+
+
+class RunLogs:
+    """The logs of all runs in a folder: lines of JSON, and ROS 2 messages of the first `mcap`."""
+
+    def __init__(
+        self, folder: Path, runs: int, mcap: int, faults: Faults, stack: contextlib.ExitStack
+    ) -> None:
+        self.folder, self.mcap, self.faults, self.stack = folder, mcap, faults, stack
+        self.files: list[IO[str]] = []
+        self.first: list[dict[str, Any]] = []
+        self.tracks: list[list[Point]] = [[] for _run in range(runs)]
+        for run in range(runs):
+            path = folder / f"{name_of(run)}.jsonl"
+            stream = open(path, "w", encoding="utf-8")  # noqa: SIM115
+            self.files.append(stack.enter_context(stream))
+        self.ros: list[RosLog] = []
+
+    def begin(self, scene: Scene, observer: Observer, way: Sequence[Point]) -> None:
+        self.scene, self.observer = scene, observer
+        for run in range(self.mcap):
+            stream = open(self.folder / f"{name_of(run)}.mcap", "wb")  # noqa: SIM115
+            self.ros.append(RosLog(stream, scene, run, way))
+            self.stack.callback(self.ros[-1].close)
+
+    def write(self, run: int, line: dict[str, Any]) -> None:
+        """One line of the log of a run."""
+        if run == 0:
+            self.first.append(line)
+        self.observer.noted(run, line)
+        self.files[run].write(compact_json(line) + "\n")
+        if run < len(self.ros):
+            self.ros[run].note(line)
+
+    def step(self, executor: Executor) -> None:
+        """Poses, faults that begin or end, and ROS 2 messages of this time step."""
+        scene, active = self.scene, np.flatnonzero(executor.active)
+        for fault in self.faults.all:
+            for at, words in ((fault.start, "begins"), (fault.end, "ends")):
+                if 0 <= scene.time - at < scene.seconds - 1e-9:
+                    for run in active:
+                        scene.note(int(run), "event", {"text": f"fault {fault.text} {words}"})
+        if scene.steps % round(POSE / scene.seconds) == 0:
+            for run in active:
+                x, y, _z, yaw = (round(float(one), 2) for one in scene.pose[run])
+                self.tracks[run].append((x, y))
+                line = {"t": round(scene.time, 1), "kind": "pose", "pose": [x, y, yaw]}
+                self.files[run].write(compact_json(line) + "\n")
+        for run in active[active < len(self.ros)]:
+            self.ros[run].step()
+        if scene.steps % round(FLUSH / scene.seconds) == 0:
+            streams: list[IO[Any]] = [*self.files, *(log.stream for log in self.ros)]
+            for stream in streams:
+                stream.flush()
+
+
+def name_of(run: int) -> str:
+    """The name of a run's files; `run` counts from 0."""
+    return f"run-{run + 1:02d}"
 
 
 class RosLog:
@@ -80,10 +145,6 @@ class RosLog:
             self.write("/fix", self._fix())
             if scene.vessel.rays:
                 self.write("/scan", self._scan())
-
-    def flush(self) -> None:
-        """Have the finished chunks in the file."""
-        self.stream.flush()
 
     def close(self) -> None:
         """Finish the file."""
