@@ -113,6 +113,6 @@ def _scale(metres: float, braille: bool) -> str:
     wanted = 40 * metres
     power = 10.0 ** math.floor(math.log10(wanted))
     length = max(step * power for step in (1, 2, 5) if step * power <= wanted * 1.0001)
-    count = max(1, round(length / metres / 2))
+    count = round(length / metres / 2)
     bar = f"├{'─' * count}┤" if braille else f"|{'-' * count}|"
     return f"{bar} {length:g} m   north is up   H home   1, 2, ... where that task ends"
