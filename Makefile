@@ -45,7 +45,7 @@ demo-readme: demo
 	$(BIN)/python scripts/demo.py build/demo --into README.md
 
 test: lint types
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 	$(BIN)/plannerft bench --gate eval/gates/ci.toml
 
 lint: install

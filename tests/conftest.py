@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import hypothesis
 import pytest
 
+from tests.forked import Forked
+
+LAUNCHER = "torch.distributed.elastic.multiprocessing.subprocess_handler.subprocess_handler"
+
 # Set before anything imports the hub's library, which reads it once: tests never touch a network.
 os.environ["HF_HUB_OFFLINE"] = "1"
+# A thread for each worker of the suite and for each process that a test starts, before anything
+# imports torch or numpy: threads that wait for a busy core compute in circles.
+for library in ("OMP", "MKL", "OPENBLAS"):
+    os.environ[f"{library}_NUM_THREADS"] = "1"
 # A shell starts background jobs with Ctrl-C ignored, and so would every process of a suite that
 # runs in one.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -36,3 +46,12 @@ def models(standins: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The stand-ins' folder, with PLANNERFT_MODELS set: candidates resolve to their stand-ins."""
     monkeypatch.setenv("PLANNERFT_MODELS", str(standins))
     return standins
+
+
+@pytest.fixture
+def forked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Processes of Python that the test starts, and those that they start, are forked."""
+    monkeypatch.setattr(subprocess, "Popen", Forked)
+    # torch's launcher, where it is loaded already, has taken Popen by its name.
+    if launcher := sys.modules.get(LAUNCHER):
+        monkeypatch.setattr(launcher, "Popen", Forked)

@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[1]
 NOTEBOOK = ROOT / "notebooks" / "first_adapter.ipynb"
 
 
+@pytest.mark.usefixtures("forked")
 def test_the_notebook_runs_on_a_stand_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -279,6 +279,7 @@ def test_how_many_more_are_worth_writing(found: list[Point], beginning: str, par
     assert said.startswith(beginning) and part in said
 
 
+@pytest.mark.usefixtures("forked")
 def test_ctrl_c_in_a_training_keeps_its_steps(
     models: Path, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

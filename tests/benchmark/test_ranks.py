@@ -10,6 +10,8 @@ import os
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from planner_ft.benchmark.folder import RecordLog
 from planner_ft.benchmark.units import command
 from planner_ft.support.ranks import Ranks
@@ -35,6 +37,7 @@ def test_processes_add_to_one_log_and_read_what_the_others_wrote(tmp_path: Path)
     assert len(path.read_text().splitlines()) == 6
 
 
+@pytest.mark.usefixtures("forked")
 def test_two_processes_give_the_result_of_one(tmp_path: Path, models: Path) -> None:
     data = tmp_path / "data.jsonl"
     records = [
@@ -59,6 +62,7 @@ def test_two_processes_give_the_result_of_one(tmp_path: Path, models: Path) -> N
         arguments = [
             "bench",
             *(str(item) for name, value in flags.items() for item in (f"--{name}", value)),
+            "--no-report",
         ]
         done = subprocess.run(
             command(arguments, processes),

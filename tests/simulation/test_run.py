@@ -172,6 +172,7 @@ simulate(SimulationSettings(Path(sys.argv[1]), runs=2, mcap=1), report)
 """
 
 
+@pytest.mark.usefixtures("forked")
 def test_the_logs_of_a_killed_simulation_can_be_read(tmp_path: Path) -> None:
     path = saved(tmp_path, [transit(80, 0)])
     killed = subprocess.run([sys.executable, "-c", KILL, str(path)], check=False)

@@ -81,7 +81,7 @@ run_suite(read_suite(Path(sys.argv[1])), Path(sys.argv[2]), report)
 """
 
 
-@pytest.mark.usefixtures("plain")
+@pytest.mark.usefixtures("plain", "forked")
 def test_a_killed_suite_goes_on(tmp_path: Path) -> None:
     head, out = HEAD.replace(', "mujoco"', ""), tmp_path / "out"
     path = written(tmp_path, mission("One"), mission("Two", 22), head=head)

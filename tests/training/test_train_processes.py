@@ -29,6 +29,7 @@ def launched(processes: int, **flags: Any) -> subprocess.CompletedProcess[str]:
     return subprocess.run(starting, env=environment, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.usefixtures("forked")
 def test_two_processes_train_as_one_with_the_doubled_batch(
     ask, quiet, data, tmp_path, models, step_losses
 ):
@@ -65,6 +66,7 @@ def test_two_processes_train_as_one_with_the_doubled_batch(
         train(ask(output=str(out), resume=True, **FLAGS), quiet)
 
 
+@pytest.mark.usefixtures("forked")
 def test_a_mistake_is_told_once(tmp_path: Path, models: Path) -> None:
     done = launched(2, level="mission", candidate="Llama-3.2-1B-Instruct", data_dir=tmp_path / "no")
     assert done.returncode != 0
