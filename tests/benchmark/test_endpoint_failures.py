@@ -71,6 +71,7 @@ def run(server: ChatServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cap
             str(tmp_path / "out"),
             "--latency-samples",
             "0",
+            "--no-report",  # drawing is tested elsewhere
         ]
         given = [
             "--endpoint",
@@ -350,6 +351,7 @@ def test_a_server_that_counts_no_tokens_is_scored_all_the_same(
     assert metrics["f1"]["value"] == 1.0 and metrics["tokens"]["value"] is None
 
 
+@pytest.mark.usefixtures("forked")
 def test_ctrl_c_does_not_wait_for_a_server_that_hangs(server: ChatServer, tmp_path: Path) -> None:
     data = tmp_path / "data.jsonl"
     data.write_text(

@@ -579,7 +579,7 @@ def test_the_command_prints_the_table(tmp_path: Path, data: Path) -> None:
         "--max-new-tokens",
         3,
     )
-    result = invoke(*arguments, "--limit", 1, "--latency-samples", 0)
+    result = invoke(*arguments, "--limit", 1, "--latency-samples", 0, "--no-report")
     assert result.exit_code == 0
     assert "strictly" in result.stdout
     assert "(stand-in)" in result.stdout

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -98,15 +99,28 @@ def write_run(
     return folder
 
 
+@pytest.fixture(scope="session")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the test data and a run of two systems, one of which answers as an attacker
+    would. Do not write to it.
+    """
+    folder = tmp_path_factory.mktemp("written")
+    write_run(folder / "run", write_data(folder), ANSWERS)
+    return folder
+
+
 @pytest.fixture
 def data(tmp_path: Path) -> Path:
     return write_data(tmp_path)
 
 
 @pytest.fixture
-def run(tmp_path: Path, data: Path) -> Path:
-    """A run of two systems, one of which answers as an attacker would."""
-    return write_run(tmp_path / "run", data, ANSWERS)
+def run(tmp_path: Path, data: Path, written: Path) -> Path:
+    """The run, on the test's own data."""
+    shutil.copytree(written / "run", tmp_path / "run")
+    results = tmp_path / "run" / "results.json"
+    results.write_text(results.read_text().replace(str(written), str(tmp_path)))
+    return tmp_path / "run"
 
 
 @pytest.fixture

@@ -7,13 +7,14 @@ a failure.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from planner_ft.report.write import write_report
-from tests.browser import headless_chromium
-from tests.report.conftest import ANSWERS, HOSTILE, write_data, write_run
+from tests.browser import SCRIPT_SECONDS, headless_chromium
+from tests.report.conftest import HOSTILE
 
 pytestmark = pytest.mark.browser
 
@@ -45,12 +46,10 @@ return found;
 
 
 @pytest.fixture(scope="module")
-def report(tmp_path_factory: pytest.TempPathFactory) -> str:
+def report(written: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
     folder = tmp_path_factory.mktemp("browser")
-    write_report(
-        [write_run(folder / "run", write_data(folder), ANSWERS)], folder / "report", pictures="none"
-    )
-    return (folder / "report" / "report.html").as_uri()
+    write_report([written / "run"], folder, pictures="none")
+    return (folder / "report.html").as_uri()
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +118,7 @@ def shown(driver: Any) -> list[str]:
 def wait(driver: Any, condition: Callable[[], bool]) -> None:
     from selenium.webdriver.support.ui import WebDriverWait
 
-    WebDriverWait(driver, 30).until(lambda _driver: condition())
+    WebDriverWait(driver, SCRIPT_SECONDS).until(lambda _driver: condition())
 
 
 def test_filters_narrow_the_list(opened: Callable[..., Any]) -> None:
@@ -227,13 +226,16 @@ def test_a_link_leads_to_a_sample(opened: Callable[..., Any]) -> None:
     assert find(driver, "#sample-0-2[open]")
 
 
+def open_all(driver: Any) -> None:
+    """Open all samples; the list may come later than the page."""
+    script = "document.querySelectorAll('details').forEach((node) => { node.open = true; })"
+    wait(driver, lambda: driver.execute_script(script) or len(find(driver, ".body section")) >= 4)
+
+
 @pytest.mark.parametrize("width", [320, 375, 768, 1280])
 def test_no_width_needs_to_scroll_sideways(opened: Callable[..., Any], width: int) -> None:
     driver = opened(width)
-    driver.execute_script(
-        "document.querySelectorAll('details').forEach((node) => { node.open = true; })"
-    )
-    wait(driver, lambda: len(find(driver, ".body section")) >= 4)
+    open_all(driver)
     assert driver.execute_script("return document.documentElement.scrollWidth") <= width
 
 
@@ -251,10 +253,7 @@ def test_letters_in_charts_are_not_shrunk_on_a_phone(opened: Callable[..., Any])
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 def test_text_stands_out_from_its_background(opened: Callable[..., Any], dark: bool) -> None:
     driver = opened(dark=dark)
-    driver.execute_script(
-        "document.querySelectorAll('details').forEach((node) => { node.open = true; })"
-    )
-    wait(driver, lambda: len(find(driver, ".body section")) >= 4)
+    open_all(driver)
     assert driver.execute_script(CONTRAST) == []
     page = driver.execute_script("return getComputedStyle(document.body).backgroundColor")
     assert (page == "rgb(255, 255, 255)") is not dark

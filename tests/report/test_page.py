@@ -18,10 +18,11 @@ from planner_ft.report.write import write_report
 from tests.report.conftest import COMMANDS, HOSTILE
 
 
-@pytest.fixture
-def page(run: Path, tmp_path: Path) -> str:
-    write_report([run], tmp_path / "report", pictures="none")
-    return (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+@pytest.fixture(scope="module")
+def page(written: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
+    folder = tmp_path_factory.mktemp("report")
+    write_report([written / "run"], folder, pictures="none")
+    return (folder / "report.html").read_text(encoding="utf-8")
 
 
 def embedded(page: str, name: str) -> str:
