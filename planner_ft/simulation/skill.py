@@ -7,6 +7,7 @@ A skill of a package of one's own, such as a learnt policy, is an entry point of
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, entry_points
@@ -129,8 +130,7 @@ class Skill:
 def implementation_of(job: Job) -> type[Skill]:
     """The class of a skill. Raises PlannerError where there is none."""
     name = job.settings.get("implementation") or (job.motion.kind if job.motion else "measure")
-    known = {key: EntryPoint(key, place, GROUP) for key, place in BUNDLED.items()}
-    known |= {one.name: one for one in entry_points(group=GROUP)}
+    known = _implementations()
     where = f"[skill.{job.skill}]"
     if name not in known:
         problem = f"implementation = {name!r} is not installed"
@@ -145,6 +145,13 @@ def implementation_of(job: Job) -> type[Skill]:
     if not (isinstance(found, type) and issubclass(found, Skill)):
         raise PlannerError(f"{where}: {known[name].value} is no Skill; ask whoever wrote it")
     return found
+
+
+@functools.cache
+def _implementations() -> dict[str, EntryPoint]:
+    """By name. A look through all that is installed takes milliseconds, and plans have many steps."""
+    known = {key: EntryPoint(key, place, GROUP) for key, place in BUNDLED.items()}
+    return known | {one.name: one for one in entry_points(group=GROUP)}
 
 
 def settings_of(vocabulary: Vocabulary, raw: Mapping[str, Any], skill: str) -> Mapping[str, Any]:
