@@ -73,6 +73,7 @@ def opened(chromium: Any, report: str) -> Iterator[Callable[..., Any]]:
         )
         chromium.get("about:blank")
         chromium.get(report + fragment)
+        wait(chromium, lambda: any(label.text for label in find(chromium, ".filters label")))
         return chromium
 
     for kind in ("browser", "performance"):
