@@ -21,7 +21,7 @@ from planner_ft.document.structures import (
 from planner_ft.document.track import Pen, Point, circle_of, point_of
 from planner_ft.facts.geometry import offset
 from planner_ft.facts.places import read_bearings
-from planner_ft.planning.passes import Face, face_of
+from planner_ft.planning.shapes import Face, face_of
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value
 

@@ -22,10 +22,9 @@ from planner_ft.planning.locations import (
     open_places,
     resolve,
 )
-from planner_ft.planning.passes import with_pass
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
-from planner_ft.planning.shapes import with_shape
+from planner_ft.planning.shapes import with_pass, with_shape
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
 from planner_ft.support.geodesy import Origin

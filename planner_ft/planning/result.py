@@ -90,8 +90,3 @@ class Planned:
         """Whether every answer parses and is strictly valid."""
         answers = [self.mission, *(task.answer for task in self.tasks if task.answer is not None)]
         return all(answer.plan is not None for answer in answers)
-
-    @property
-    def complete(self) -> bool:
-        """Whether every task has its skills, so that nothing is left to fill in."""
-        return self.valid and all(task.answer is not None for task in self.tasks)

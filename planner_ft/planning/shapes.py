@@ -1,5 +1,8 @@
-"""Waypoints of a grid, a square or a line that follow from the task's values, where the Task
-Agent's do not make it.
+"""Waypoints that follow from the task's values, where the Task Agent's do not make its shape: both
+ends of a pass along a face, the points of a grid, a square or a line.
+
+A face is on the stated side of its structure; the pass has its middle before it, runs along it and
+keeps its distance, so its ends follow from side, length, distance and the structure's place.
 """
 
 from __future__ import annotations
@@ -7,11 +10,19 @@ from __future__ import annotations
 import copy
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.facts import near
-from planner_ft.facts.geometry import Point, lane_count, lawnmower, straight_line, survey_square
+from planner_ft.facts.geometry import (
+    Point,
+    lane_count,
+    lawnmower,
+    offset,
+    straight_line,
+    survey_square,
+)
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_bearings, read_positions
 from planner_ft.planning.essentials import VEHICLE, Added, Step
@@ -23,9 +34,29 @@ SIZE, SPACING, RADIUS = ("width", "length"), "spacing", "radius"
 """The parameters of a grid: extent along x and y, and between lanes; that of a square."""
 COURSE = ("heading", "max_dist")
 """Those of a line: its course and its length."""
+SIDE, PASS = "side_id", ("length", "distance")
+"""Those of a pass: the side of the structure, the length, and the distance from the face."""
 SLACK, SHARE = 0.5, 0.02
 """Metres, and the share of a length, by which waypoints may differ from it."""
 MOST_WAYPOINTS = 128
+
+
+def with_pass(
+    task: Mapping[str, Any], steps: Sequence[Step], vocabulary: Vocabulary
+) -> tuple[list[Step], Added]:
+    """The steps with both ends of the pass, and what was added; as they are where they make a pass,
+    have more waypoints than one, or where its ends do not follow from the task.
+    """
+    goals = [goal_of(step, vocabulary) for step in steps]
+    made = [goal for goal in goals if goal]
+    moving = [at for at, goal in enumerate(goals) if goal]
+    ends = pass_ends(task, vocabulary)
+    if not ends or len(made) not in (1, 2) or run_of(made) >= math.dist(*ends) * (1 - SHARE):
+        return list(steps), Added()
+    nearer = sorted(ends, key=lambda end: math.dist(end, made[0]))
+    first, last = moving[0], moving[-1]
+    whole = steps if last > first else [*steps[: first + 1], *steps[first:]]
+    return _placed(whole, zip((first, max(last, first + 1)), nearer, strict=True), vocabulary)
 
 
 def with_shape(
@@ -34,27 +65,85 @@ def with_shape(
     """The steps with the waypoints of the task's shape, and what was set; as they are where
     they make it, do something beside, or where the prompt says more of it than the parameters.
     """
-    names = [
-        [item.name for item in vocabulary.skill[step["navigation_skill"]["name"]].coordinates[:2]]
-        for step in steps
-    ]
-    points = shape_points(task, vocabulary) if all(names) else []
-    if not points or not _is_plain(task, vocabulary):
+    points, made = shape_points(task, vocabulary), [goal_of(step, vocabulary) for step in steps]
+    goals = [goal for goal in made if goal]
+    if not points or not goals or len(goals) < len(made) or not _is_plain(task, vocabulary):
         return list(steps), Added()
-    given = [step["navigation_skill"]["parameters"] for step in steps]
-    made = [(own[x], own[y]) for own, (x, y) in zip(given, names, strict=True)]
-    if not made or not shape_problem(task, made, vocabulary):
+    if not shape_problem(task, goals, vocabulary):
         return list(steps), Added()
-    done, marks = list[Step](), Added()
-    for at, point in enumerate(points):
-        last = min(at, len(steps) - 1)
-        done.append(copy.deepcopy(steps[last]))
+    whole = [steps[min(at, len(steps) - 1)] for at in range(len(points))]
+    return _placed(whole, enumerate(points), vocabulary)
+
+
+def goal_of(step: Step, vocabulary: Vocabulary) -> Point | None:
+    """Where a step goes; None for one that goes nowhere."""
+    skill = step["navigation_skill"]
+    names = [item.name for item in vocabulary.skill[skill["name"]].coordinates]
+    return (skill["parameters"][names[0]], skill["parameters"][names[1]]) if names else None
+
+
+def _placed(
+    steps: Sequence[Step], points: Iterable[tuple[int, Point]], vocabulary: Vocabulary
+) -> tuple[list[Step], Added]:
+    """The steps with other waypoints, by index, and a mark for each coordinate."""
+    done, marks = [copy.deepcopy(step) for step in steps], Added()
+    for at, point in points:
         skill = done[at]["navigation_skill"]
-        for name, value in zip(names[last], canonical_value(list(point)), strict=True):
+        names = vocabulary.skill[skill["name"]].coordinates
+        for item, value in zip(names, canonical_value(list(point)), strict=True):
+            skill["parameters"][item.name] = value
             mark = {"step": at, "role": "navigation", "name": skill["name"], "kind": VEHICLE}
-            marks.append({**mark, "parameter": name})
-            skill["parameters"][name] = value
+            marks.append({**mark, "parameter": item.name})
     return done, marks
+
+
+# ---------------------------------------------------------------- passes
+
+
+@dataclass(frozen=True)
+class Face:
+    """A face of a structure: its ends, the bearing that it looks to, the distance to be kept."""
+
+    ends: tuple[Point, Point]
+    side: float
+    distance: float
+
+    @property
+    def middle(self) -> Point:
+        """The place of the structure."""
+        (a, b), (c, d) = self.ends
+        return (a + c) / 2, (b + d) / 2
+
+
+def face_of(task: Mapping[str, Any], vocabulary: Vocabulary) -> Face | None:
+    """The face that a task runs along, where it follows from the task for certain."""
+    given = task["parameters"]
+    bearings = read_bearings(str(given.get(SIDE, "")))
+    places = [place for place in read_positions(task["task_prompt"]) if place.certain]
+    measures = [given.get(name) for name in PASS]
+    known = vocabulary.task[task["title"]].pattern == "pass" and all(map(is_number, measures))
+    if not known or len(bearings) != 1 or len(places) != 1:
+        return None
+    side, at = bearings[0].value, (places[0].x, places[0].y)
+    first, last = (offset(at, side + turn, measures[0] / 2) for turn in (-90, 90))
+    return Face((first, last), side, measures[1])
+
+
+def pass_ends(task: Mapping[str, Any], vocabulary: Vocabulary) -> tuple[Point, Point] | None:
+    """Both ends of a pass; None where side, length, distance or place are not known for certain."""
+    face = face_of(task, vocabulary)
+    if face is None:
+        return None
+    first, last = (offset(end, face.side, face.distance) for end in face.ends)
+    return first, last
+
+
+def run_of(points: Sequence[Point]) -> float:
+    """The largest distance between two of some waypoints."""
+    return max((math.dist(*pair) for pair in itertools.combinations(points, 2)), default=0.0)
+
+
+# ---------------------------------------------------------------- grids, squares and lines
 
 
 def shape_points(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
@@ -78,8 +167,12 @@ def shape_points(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]
 def shape_problem(
     task: Mapping[str, Any], points: Sequence[Point], vocabulary: Vocabulary
 ) -> str | None:
-    """Why waypoints do not make the grid, the line or the square of a task, for an operator."""
+    """Why waypoints do not make the pass, grid, line or square of a task, for an operator."""
     known, given = vocabulary.task[task["title"]], task["parameters"]
+    if known.pattern == "pass" and is_number(length := given.get(PASS[0])) and points:
+        short = run_of(points) < length * (1 - SHARE) - SLACK
+        said = f"its waypoints are {run_of(points):.3g} m apart, and its length is {length:g} m"
+        return said if short else None
     if known.pattern == "lawnmower" and all(is_number(given.get(name)) for name in SIZE):
         size, spacing = [given[name] for name in SIZE], given.get(SPACING, 0)
         problem = _grid_problem(size, spacing, points)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner_ft.planning.passes import pass_ends, with_pass
+from planner_ft.planning.shapes import pass_ends, with_pass
 from planner_ft.vocabulary import load_vocabulary
 from tests.documents import step
 

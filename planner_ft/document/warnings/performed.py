@@ -4,20 +4,15 @@ ends where its course leads, a square keeps its stand-off, a panorama looks in a
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.document.track import Point
 from planner_ft.document.warnings.case import Case
 from planner_ft.document.warnings.kinds import Warning, warning
-from planner_ft.planning.shapes import SHARE, SLACK, shape_problem
+from planner_ft.planning.shapes import goal_of, shape_problem
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import is_number
 
-LENGTH = "length"
-"""The parameter of a pass."""
 MEASURES = ("m", "s", "m/s", "count")
 """Units of what cannot be nothing; an angle and a share can."""
 TURNS = ("turn-to", "turn-by")
@@ -46,26 +41,12 @@ def performed(case: Case) -> Iterator[Warning]:
 
 def _problem(task: Mapping[str, Any], names: list[str], known: Vocabulary) -> str | None:
     """How waypoints and turns of a task (`names`: its movements) differ from its values."""
-    pattern, points = known.task[task["title"]].pattern, _waypoints(task, known)
-    if pattern == "sectors" and is_number(count := task["parameters"].get("sectors")):
-        motions = [known.motion.of(name) for name in names]
+    if known.task[task["title"]].pattern == "sectors":
+        count, motions = task["parameters"].get("sectors"), map(known.motion.of, names)
         turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
-        return f"it turns {turns} times for {count:g} sectors" if turns < count - 1 else None
-    length = task["parameters"].get(LENGTH)
-    if pattern == "pass" and is_number(length) and points:
-        pairs = itertools.combinations(points, 2)
-        run = max((math.dist(*pair) for pair in pairs), default=0.0)
-        if run < length * (1 - SHARE) - SLACK:
-            return f"its waypoints are {run:.3g} m apart, and its length is {length:g} m"
-    return shape_problem(task, points, known)
-
-
-def _waypoints(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
+        few = is_number(count) and turns < count - 1
+        return f"it turns {turns} times for {count:g} sectors" if few else None
     clearance = {mark["step"] for mark in task.get("added", ()) if mark["kind"] == "clearance"}
-    found = []
-    for index, step in enumerate(task["skill_sequence"]):
-        skill = step["navigation_skill"]
-        names = [parameter.name for parameter in vocabulary.skill[skill["name"]].coordinates]
-        if names and index not in clearance:
-            found.append((skill["parameters"][names[0]], skill["parameters"][names[1]]))
-    return found
+    goals = [goal_of(step, known) for step in task["skill_sequence"]]
+    points = [goal for at, goal in enumerate(goals) if goal and at not in clearance]
+    return shape_problem(task, points, known)

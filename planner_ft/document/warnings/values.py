@@ -21,8 +21,7 @@ from planner_ft.facts import (
     unknown_words,
 )
 from planner_ft.facts.words import edit_distance, words
-from planner_ft.planning.passes import pass_ends
-from planner_ft.planning.shapes import shape_points
+from planner_ft.planning.shapes import pass_ends, shape_points
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
