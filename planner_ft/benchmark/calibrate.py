@@ -16,8 +16,7 @@ from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.scoring import SampleScore, score_sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.confidence.calibration import KINDS, Calibration, Curve, log_features
-from planner_ft.confidence.choices import from_json
-from planner_ft.confidence.parts import Kind, Part, parts
+from planner_ft.confidence.parts import Kind, Part, from_json, parts
 from planner_ft.planning.agents import silent
 from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support import files

@@ -13,8 +13,7 @@ from planner_ft.benchmark.metrics.alignment import Alignment, Entry, align, plan
 from planner_ft.benchmark.metrics.facts import KINDS, groundedness, slot_propagation
 from planner_ft.benchmark.metrics.names import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
-from planner_ft.confidence.choices import from_json
-from planner_ft.confidence.parts import parts
+from planner_ft.confidence.parts import from_json, parts
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ROLES

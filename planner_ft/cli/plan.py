@@ -52,8 +52,7 @@ def _plan(o: Options) -> PlanDocument:
     from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import check_area, load_vehicle
     from planner_ft.document.warnings.asked import other_language
-    from planner_ft.planning.chart import read_area, read_places
-    from planner_ft.planning.locations import parse_locations
+    from planner_ft.planning.locations import parse_locations, read_area, read_places
     from planner_ft.planning.planner import Planner, check_command, read_command
     from planner_ft.planning.settings import PlanSettings
     from planner_ft.support.geodesy import parse_origin

@@ -71,7 +71,7 @@ def _review(o: Options) -> None:
 
 
 def _serve(o: Options) -> None:
-    from planner_ft.exporters import page as exporting
+    from planner_ft.exporters import run as exporting
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.simulation.live import run_live
@@ -109,9 +109,9 @@ def verify(o: Options) -> None:
 
 def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | None) -> None:
     from planner_ft.document import read_document
+    from planner_ft.review.approval import approval_of
     from planner_ft.review.log import existing_log, log_beside
     from planner_ft.review.terminal import approval_text
-    from planner_ft.review.verify import approval_of
     from planner_ft.support.files import indented_json
     from planner_ft.vocabulary import load_vocabulary
 

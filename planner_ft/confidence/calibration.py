@@ -12,8 +12,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal, get_args
 
-from planner_ft.confidence.choices import Choices
-from planner_ft.confidence.parts import Kind, Part, parts
+from planner_ft.confidence.parts import Choices, Kind, Part, parts
+from planner_ft.confidence.parts import Path as PartPath
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.vocabulary.outputs import parse_output
@@ -29,6 +29,9 @@ AGENT = (
     *("weights_sha256", "adapter_sha256", "vocabulary_sha256"),
 )
 """What a calibration holds for; it says nothing of others."""
+LEAST = 0.02
+"""Probability from which on another token is worth a question."""
+NO_LOGPROBS = "the model gives no log-probabilities that can be believed"
 
 
 @dataclass(frozen=True)
@@ -125,3 +128,54 @@ def read_calibration(path: Path, agent: Mapping[str, Any]) -> tuple[Calibration 
         problem = "it was calibrated with other weights or settings"
         return None, f"{problem}; plannerft calibrate does it again"
     return found, ""
+
+
+# ---------------------------------------------------------------- one answer
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Probabilities that parts of an answer are right, by path, that of the plan under (); none
+    where that is not known, and then `reason` says why.
+
+    `others` are beginnings of what the model might have written in place of a value (JSON), each
+    with its probability, the likeliest first.
+    """
+
+    reason: str = ""
+    parts: Mapping[PartPath, float] = field(default_factory=dict)
+    others: Mapping[PartPath, tuple[tuple[str, float], ...]] = field(default_factory=dict)
+
+
+NOT_JUDGED = Judgement(NO_LOGPROBS)
+
+
+def judge_answer(
+    calibration: Calibration | None, reason: str, text: str, choices: Choices | None
+) -> Judgement:
+    """The judgement of an answer that is one JSON object; `reason` says why there is no
+    calibration.
+    """
+    if choices is None:
+        return Judgement(NO_LOGPROBS)
+    if calibration is None:
+        return Judgement(reason)
+    found = calibration.probabilities(text, choices)
+    others = {part.path: other_beginnings(text, part) for part, _ in found if part.kind == "value"}
+    known = {path: of for path, of in others.items() if of}
+    return Judgement("", {part.path: probability for part, probability in found}, known)
+
+
+def other_beginnings(text: str, part: Part) -> tuple[tuple[str, float], ...]:
+    """What the model might have begun to write in place of a value: from its start on to the end of
+    another token, with the probability of that token.
+    """
+    found: dict[str, float] = {}
+    before = text[: part.span.start]
+    for start, choice in zip(part.starts, part.choices, strict=True):
+        for token, logprob in choice.others:
+            begun = text[:start] + token
+            # A token that begins before the value must write the same up to there.
+            if len(begun) > len(before) and begun.startswith(before) and math.exp(logprob) > LEAST:
+                found.setdefault(begun[len(before) :], math.exp(logprob))
+    return tuple(sorted(found.items(), key=lambda pair: -pair[1]))

@@ -15,7 +15,7 @@ from planner_ft.candidates.loading import load_model, load_tokenizer, require_fo
 from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
 from planner_ft.candidates.tokenizer import FileTokenizer
-from planner_ft.confidence.choices import Choice, Choices
+from planner_ft.confidence.parts import Choice, Choices
 from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.factory import Factory, constraint_factory

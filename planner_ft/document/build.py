@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from planner_ft.confidence.judgement import Judgement
+from planner_ft.confidence.calibration import Judgement
 from planner_ft.document.clearance import cleared
 from planner_ft.document.confidence import (
     choices,

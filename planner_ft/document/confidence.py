@@ -8,8 +8,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from planner_ft.confidence.calibration import sureness
-from planner_ft.confidence.judgement import Judgement
+from planner_ft.confidence.calibration import Judgement, sureness
 from planner_ft.planning.doubts import Doubt
 from planner_ft.planning.result import Planned, PlannedTask
 from planner_ft.support.files import compact_json

@@ -1,21 +1,25 @@
-"""Exporting a plan: read it, look up its approval, write the file and the report of its losses."""
+"""Exporting a plan, from a shell or the page of a review: read it, look up its approval, write the
+file and the report of its losses.
+"""
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from planner_ft.document import read_document
 from planner_ft.exporters.formats import DRAFT, Format, PlanExport, known_formats, load_format
 from planner_ft.exporters.ledger import MOVEMENT, Account, Loss, ranges
 from planner_ft.exporters.ledger import Path as Place
 from planner_ft.planning.frame import doubt, origin_of
+from planner_ft.review.approval import approval_of
 from planner_ft.review.log import log_beside
-from planner_ft.review.verify import approval_of
 from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.files import write_text
-from planner_ft.support.geodesy import Origin
+from planner_ft.support.geodesy import Origin, parse_origin
 from planner_ft.support.terminal import plain
 from planner_ft.vocabulary import load_vocabulary
 
@@ -202,3 +206,44 @@ def _section(title: str, column: str, losses: Sequence[Loss]) -> list[str]:
 def _cell(text: str) -> str:
     """Text of a command in a table: no line of its own, no column, no markup."""
     return "".join(f"\\{sign}" if sign in "\\`*_[]<>|#" else sign for sign in plain(text))
+
+
+# ---------------------------------------------------------------- export from the page of a review
+
+
+@functools.cache
+def formats() -> list[dict[str, Any]]:
+    """Name, description and extension of every format, and whether it needs an origin."""
+    found = []
+    for name in known_formats():
+        try:
+            one = load_format(name)
+        except PlannerError:
+            continue  # a format of somebody's own that does not load: the terminal says why
+        about = {"description": one.description, "extension": one.extension}
+        found.append({"name": name, **about, "needs_origin": one.needs_origin})
+    return found
+
+
+def hand_over(
+    plan: Path, log: Path, names: list[str], origin: str, *, overwrite: bool, sure: bool
+) -> list[dict[str, Any]]:
+    """Write an approved plan in these formats; `sure`: a doubtful origin is right all the same.
+
+    Raises QuestionError and PlannerError as `export_plan`.
+    """
+    place = parse_origin(origin) if origin.strip() else None
+    settings = PlanExportSettings(
+        plan, tuple(names), place, log=log, overwrite=overwrite, sure=sure
+    )
+    return [
+        {
+            "format": done.format.name,
+            "file": done.file.name,
+            "report": done.report.name,
+            "text": done.file.read_text(encoding="utf-8"),
+            "stops": stop_words(done.account),
+            "lines": list(loss_lines(done.account)),
+        }
+        for done in export_plan(settings)
+    ]

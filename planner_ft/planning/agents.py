@@ -8,9 +8,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.loading import resolve_device
-from planner_ft.confidence.calibration import Calibration, read_calibration
-from planner_ft.confidence.choices import known
-from planner_ft.confidence.judgement import judge_answer
+from planner_ft.confidence.calibration import Calibration, judge_answer, read_calibration
+from planner_ft.confidence.parts import known
 from planner_ft.planning.result import AgentUse, Answer
 from planner_ft.planning.settings import Agent
 from planner_ft.support.resources import peak_memory

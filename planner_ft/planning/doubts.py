@@ -11,8 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.confidence.calibration import SURE
-from planner_ft.confidence.judgement import Judgement
+from planner_ft.confidence.calibration import SURE, Judgement
 from planner_ft.confidence.parts import Path
 from planner_ft.facts import read
 from planner_ft.support.files import compact_json

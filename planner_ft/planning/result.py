@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from planner_ft.confidence.judgement import NOT_JUDGED, Judgement
+from planner_ft.confidence.calibration import NOT_JUDGED, Judgement
 from planner_ft.planning.doubts import Doubt
 from planner_ft.planning.locations import OpenPlace, Position
 from planner_ft.support.geodesy import Origin

@@ -1,8 +1,7 @@
 """Review of a plan by a person: approval log, verification, terminal, browser, harvest."""
 
-from planner_ft.review.approval import approve, reject
+from planner_ft.review.approval import Approval, approval_of, approve, reject
 from planner_ft.review.log import append, check_log, log_beside, read_log
-from planner_ft.review.verify import Approval, approval_of
 
 __all__ = [
     "Approval",

@@ -14,11 +14,10 @@ from planner_ft.document.files import vocabulary_of
 from planner_ft.planning.planner import Planner
 from planner_ft.planning.result import Answer
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings
-from planner_ft.review.approval import approve, reject
+from planner_ft.review.approval import Approval, approval_of, approve, reject
 from planner_ft.review.commands import parse_edit
 from planner_ft.review.log import Appended, log_beside
 from planner_ft.review.store import save, unchanged
-from planner_ft.review.verify import Approval, approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT

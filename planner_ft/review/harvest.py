@@ -22,9 +22,9 @@ from planner_ft.facts import WAYPOINT, is_known, missing_words, read, read_input
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.planning.frame import frame_of
 from planner_ft.planning.planner import new_file
+from planner_ft.review.approval import Approval, approval_of
 from planner_ft.review.desk import read_plan
 from planner_ft.review.log import existing_log, log_beside
-from planner_ft.review.verify import Approval, approval_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, sha256_text, write_text
 from planner_ft.vocabulary import Vocabulary

@@ -17,13 +17,13 @@ from planner_ft.document.track import track
 from planner_ft.document.tree import constraint_lines, task_tree
 from planner_ft.document.warnings.kinds import gravest_first, meaning
 from planner_ft.planning.frame import origin_of
+from planner_ft.review.approval import Approval
 from planner_ft.review.changes import tampered
 from planner_ft.review.chart import chart
 from planner_ft.review.commands import HELP
 from planner_ft.review.desk import Desk
 from planner_ft.review.log import Appended
 from planner_ft.review.store import ChangedError
-from planner_ft.review.verify import Approval
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import clock

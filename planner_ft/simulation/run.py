@@ -16,8 +16,8 @@ from planner_ft.document import read_document
 from planner_ft.document.track import Point
 from planner_ft.exporters.formats import PlanExport
 from planner_ft.planning.frame import origin_of
+from planner_ft.review.approval import approval_of
 from planner_ft.review.log import log_beside
-from planner_ft.review.verify import approval_of
 from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.fast import SIMULATORS, Floats, build_simulator

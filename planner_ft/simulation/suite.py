@@ -19,7 +19,7 @@ from planner_ft.document.track import Point
 from planner_ft.document.vehicle import load_vehicle
 from planner_ft.planning.locations import Position
 from planner_ft.review import approve, log_beside
-from planner_ft.review.verify import approval_of
+from planner_ft.review.approval import approval_of
 from planner_ft.simulation.asked import read_outlines
 from planner_ft.simulation.fast import Floats
 from planner_ft.simulation.output import COLUMNS, cell, number, published_missions

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.support.files import read_text
-from planner_ft.vocabulary.logic import LISTS
+from planner_ft.vocabulary.motion import LISTS
 
 if TYPE_CHECKING:
     from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary

@@ -10,8 +10,7 @@ from typing import Any, Literal, get_args
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, read_toml, sha256_text
 from planner_ft.vocabulary import checks
-from planner_ft.vocabulary.logic import LOGIC, Logic, build_logic
-from planner_ft.vocabulary.motion import MOTION, Motions, build_motions
+from planner_ft.vocabulary.motion import LOGIC, MOTION, Logic, Motions, build_logic, build_motions
 
 Role = Literal["navigation", "filter", "perception"]
 ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]

@@ -1,4 +1,6 @@
-"""Movements of skills and circles of tasks: NAME.motion.toml, no part of the digest."""
+"""What skills and tasks do: movements and circles (NAME.motion.toml), and what tasks bring about
+and need beyond their places (NAME.logic.toml). Both are no part of the digest.
+"""
 
 from __future__ import annotations
 
@@ -60,3 +62,43 @@ def build_motions(raw: Mapping[str, Any]) -> Motions:
         skills[name] = Motion(entry["motion"], roles)
     standoffs = {title: Standoff(**entry) for title, entry in raw.get("task", {}).items()}
     return Motions(skills, standoffs)
+
+
+# ---------------------------------------------------------------- what tasks bring about and need
+
+
+LOGIC = ".logic.toml"
+LISTS = ("gives", "needs", "yields")
+
+
+@dataclass(frozen=True)
+class TaskLogic:
+    """Facts that a task gives and needs, words for its yield, and the parameter of sent items."""
+
+    gives: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    yields: tuple[str, ...] = ()
+    sends: str | None = None
+
+
+@dataclass(frozen=True)
+class Logic:
+    """`lacking`: per fact the sentence for a plan without it; `tasks`: the logic by title."""
+
+    lacking: dict[str, str] = field(default_factory=dict)
+    tasks: dict[str, TaskLogic] = field(default_factory=dict)
+
+    def of(self, title: str) -> TaskLogic:
+        """The logic of a task; an empty one where nothing is declared."""
+        return self.tasks.get(title, TaskLogic())
+
+
+def build_logic(raw: Mapping[str, Any]) -> Logic:
+    """The logic of a parsed file without problems (checks.logic_problems)."""
+    tasks = {
+        title: TaskLogic(
+            **{key: tuple(entry.get(key, ())) for key in LISTS}, sends=entry.get("sends")
+        )
+        for title, entry in raw.get("task", {}).items()
+    }
+    return Logic({name: fact["lacking"] for name, fact in raw.get("fact", {}).items()}, tasks)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from planner_ft.vocabulary.definition import Parameter, Task, Vocabulary
-from planner_ft.vocabulary.logic import TaskLogic
+from planner_ft.vocabulary.motion import TaskLogic
 from planner_ft.vocabulary.plans import value_problem
 
 Position = tuple[float, float]

@@ -8,14 +8,15 @@ import pytest
 
 from planner_ft.confidence.calibration import (
     AGENT,
+    NO_LOGPROBS,
     Calibration,
     Curve,
+    judge_answer,
     plan_confidence,
     read_calibration,
     sureness,
 )
-from planner_ft.confidence.choices import Choice, Choices
-from planner_ft.confidence.judgement import NO_LOGPROBS, judge_answer
+from planner_ft.confidence.parts import Choice, Choices
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json
 

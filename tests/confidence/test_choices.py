@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from planner_ft.confidence.choices import LOWEST, Choice, as_json, from_json, known
+from planner_ft.confidence.parts import LOWEST, Choice, as_json, from_json, known
 
 TEXT = '{"tasks":[]}'
 HONEST = (Choice(9, -0.02, (("x", -4.0),)), Choice(3, -0.7, (("y", -0.9), ("z", -3.0))))

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner_ft.confidence.choices import Choice, Choices
-from planner_ft.confidence.parts import parts, spans
+from planner_ft.confidence.parts import Choice, Choices, parts, spans
 
 MISSION = (
     '{"tasks":[{"title":"Transit","parameters":{"target_position":[4,-2]},"task_prompt":"Go."},'

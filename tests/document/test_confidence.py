@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.confidence.judgement import Judgement
+from planner_ft.confidence.calibration import Judgement
 from planner_ft.document import apply, document_digest, revise, undo
 from planner_ft.document.build import PlanDocument, build
 from planner_ft.document.confidence import (

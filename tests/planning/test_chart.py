@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.planning.chart import read_area, read_places
-from planner_ft.planning.locations import OpenPlace, charted
+from planner_ft.planning.locations import OpenPlace, charted, read_area, read_places
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import Origin
 

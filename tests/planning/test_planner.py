@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import jsonschema
 import pytest
 
-from planner_ft.confidence.judgement import NO_LOGPROBS
+from planner_ft.confidence.calibration import NO_LOGPROBS
 from planner_ft.document import build
 from planner_ft.document.tree import plan_tree
 from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown

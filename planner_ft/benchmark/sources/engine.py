@@ -11,7 +11,7 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sources import Fields, timed
 from planner_ft.candidates.loading import resolve_device
 from planner_ft.confidence.calibration import plan_confidence
-from planner_ft.confidence.choices import as_json, known
+from planner_ft.confidence.parts import as_json, known
 from planner_ft.decoding.configurations import Configuration
 from planner_ft.decoding.engine import Engine
 from planner_ft.support.errors import PlannerError

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.confidence.choices import Choice, Choices, known
+from planner_ft.confidence.parts import Choice, Choices, known
 from planner_ft.support.tables import printable
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.track import Track
-from planner_ft.document.warnings import asked, performed, route, said, space, values
+from planner_ft.document.warnings import asked, route, said, space, values
 from planner_ft.document.warnings.case import Case, Check
 from planner_ft.document.warnings.kinds import KINDS, NOTES, SERIOUS, Warning, warning
 from planner_ft.planning.frame import doubt, origin_of
@@ -59,7 +59,7 @@ CHECKS: tuple[Check, ...] = (
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
-    performed.performed,
+    route.performed,
     *(said.measures, said.bare_numbers, said.clock_times),
     *(said.rows, said.uneven_rows, said.unvisited),
     *(said.positions, said.limits, said.repeats, said.there_and_not, said.misnamed),

@@ -77,7 +77,7 @@ class WebSettings:
 
 
 class Exporting(Protocol):
-    """What writes approved plans for vehicles (planner_ft.exporters.page)."""
+    """What writes approved plans for vehicles (planner_ft.exporters.run)."""
 
     def formats(self) -> list[dict[str, Any]]: ...
 

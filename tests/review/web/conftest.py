@@ -12,7 +12,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner_ft.document import PlanDocument, build, write_document
-from planner_ft.exporters import page as exporting
+from planner_ft.exporters import run as exporting
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.web.app import web_app

@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 from planner_ft.document import read_document, write_document
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review import log_beside, read_log
-from planner_ft.review.verify import approval_of
+from planner_ft.review.approval import approval_of
 from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door
 from planner_ft.review.web.run import Runner

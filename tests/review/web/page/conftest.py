@@ -20,7 +20,7 @@ import pytest
 import uvicorn
 
 from planner_ft.document import PlanDocument, apply, build, read_document, write_document
-from planner_ft.exporters import page as exporting
+from planner_ft.exporters import run as exporting
 from planner_ft.planning.planner import SkillsKnown, TasksKnown
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import PlanSettings

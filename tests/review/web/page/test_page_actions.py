@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner_ft.confidence.judgement import Judgement
+from planner_ft.confidence.calibration import Judgement
 from planner_ft.document import build, write_document
 from planner_ft.planning.doubts import Doubt
 from planner_ft.support.errors import PlannerError
