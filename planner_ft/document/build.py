@@ -30,8 +30,8 @@ from planner_ft.planning.essentials import asked, kept_additions, kept_defaults,
 from planner_ft.planning.locations import OpenPlace, open_places
 from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.document_schema import FORMAT, TASK_KEYS, VERSION, document_keys
 from planner_ft.vocabulary.plans import canonical_parameters
+from planner_ft.vocabulary.schema import FORMAT, TASK_KEYS, VERSION, document_keys
 
 PlanDocument = dict[str, Any]
 """A plan document (schemas/plan.schema.json), never changed in place."""

@@ -21,9 +21,8 @@ from planner_ft.document.structures import (
 from planner_ft.document.track import Pen, Point, circle_of, point_of
 from planner_ft.facts.geometry import offset
 from planner_ft.facts.places import read_bearings
-from planner_ft.planning.shapes import Face, face_of
+from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import canonical_value
 
 MOST_WALLS = 60
 """Circles by which a face is kept clear of."""
@@ -36,7 +35,7 @@ def cleared(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
     """The tasks of a plan with steps that keep clear of its structures, where there is a way."""
     tasks: list[dict[str, Any]] = list(document["tasks"])
     known = structures(document, vocabulary)
-    if not known:
+    if not known or not vocabulary.motion.skills:
         return tasks
     pen = Pen(vocabulary, document.get("vehicle") or {})
     allowed, done = fence(document, vocabulary), []
@@ -145,19 +144,11 @@ class _Steps:
 
     def _goal(self, step: Step) -> Point | None:
         """Where a step goes; None for one that goes nowhere."""
-        skill = step["navigation_skill"]
-        motion = self.pen.vocabulary.motion.of(skill["name"])
-        if motion is None or motion.kind != "go":
-            return None
-        return point_of([motion.value(axis, skill["parameters"]) for axis in ("x", "y")])
+        goal = goal_of(step, self.pen.vocabulary)
+        return goal and point_of(goal)
 
     def _with_goal(self, step: Step, goal: Sequence[float]) -> Step:
-        skill = step["navigation_skill"]
-        motion = self.pen.vocabulary.motion.of(skill["name"])
-        assert motion is not None
-        names = motion.parameters["x"], motion.parameters["y"]
-        at = dict(zip(names, (canonical_value(round(part, 1)) for part in goal), strict=True))
-        return {**step, "navigation_skill": {**skill, "parameters": {**skill["parameters"], **at}}}
+        return with_goal(step, [round(part, 1) for part in goal], self.pen.vocabulary)
 
 
 def way_round(

@@ -11,8 +11,8 @@ from unicodedata import category
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary
-from planner_ft.vocabulary.document_schema import task_schema
 from planner_ft.vocabulary.plans import canonical_value, is_number, value_problem
+from planner_ft.vocabulary.schema import task_schema
 
 POSITION = Parameter("position", "position", "m")
 LONGEST_PROMPT, LONGEST_SHOWN = 4000, 120
@@ -25,6 +25,14 @@ def known(owner: Task | Skill, called: str, name: str) -> Parameter:
         there = ", ".join(owner.by_name) or "none"
         raise PlannerError(f"{short(name)}: is no parameter of {called}; there is {there}")
     return owner.by_name[name]
+
+
+def titled(title: str, vocabulary: Vocabulary) -> Task:
+    """The definition of a task."""
+    if title not in vocabulary.task:
+        there = ", ".join(vocabulary.task)
+        raise PlannerError(f"{short(title)}: is no task of this vehicle; there is {there}")
+    return vocabulary.task[title]
 
 
 def put(given: dict[str, Any], parameter: Parameter, value: Any) -> None:

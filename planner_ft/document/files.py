@@ -11,8 +11,8 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import bundled_vocabularies
-from planner_ft.vocabulary.document_schema import FORMAT, VERSION, frame_schema
 from planner_ft.vocabulary.plans import plan_problems, task_problems
+from planner_ft.vocabulary.schema import FORMAT, VERSION, frame_schema
 
 LARGEST_FILE = 64 * 2**20
 """Bytes of a file that is read at most: a plan of 500 tasks has about 2 MB."""

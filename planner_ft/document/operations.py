@@ -18,7 +18,7 @@ from planner_ft.planning.doubts import renamed
 from planner_ft.planning.frame import frame_of
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import parse_origin
-from planner_ft.vocabulary import Task, Vocabulary
+from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary import plans as rules
 from planner_ft.vocabulary.plans import step_skills
 
@@ -47,15 +47,6 @@ class Draft:
             known = ", ".join(tasks) or "none"
             raise PlannerError(f"task {entered.short(name)}: is not in the plan; there is {known}")
         return tasks[name]
-
-    def title(self, title: str) -> Task:
-        """The definition of a task."""
-        if title not in self.vocabulary.task:
-            known = ", ".join(self.vocabulary.task)
-            raise PlannerError(
-                f"{entered.short(title)}: is no task of this vehicle; there is {known}"
-            )
-        return self.vocabulary.task[title]
 
     def put(self, task: Entry, at: int) -> None:
         """Put a task at a place, which may be behind the last one."""
@@ -131,7 +122,7 @@ def insert(
     task_prompt: Any = "",
     id: Any = None,  # of a record that is made anew
 ) -> Entry:
-    owner = draft.title(title)
+    owner = entered.titled(title, draft.vocabulary)
     if len(draft.tasks) >= MOST_TASKS:
         problem = f"the plan has {MOST_TASKS} tasks, and no more fit; plan two missions"
         raise PlannerError(f"insert {title}: {problem}")
@@ -194,7 +185,7 @@ def parameter(draft: Draft, task: Entry, name: str, value: Any = None) -> None:
 
 def title(draft: Draft, task: Entry, title: str) -> None:
     """Another task with what it takes of the parameters."""
-    known = draft.title(title)
+    known = entered.titled(title, draft.vocabulary)
     given = renamed(task, title, draft.vocabulary)
     if given is None:
         problem = f"{title} needs more than the parameters of {task['title']}"

@@ -105,10 +105,19 @@ def check_vehicle(source: str) -> list[Part]:
     doubts = "".join(f"; {doubt}" for doubt in _doubts(vocabulary))
     return [
         Part(path.name, "every command", "ready", size + doubts),
-        _mission_set(vocabulary),
-        _templates(vocabulary),
+        _part("mission/", "gen-data, train and bench --level mission", _mission_set, vocabulary),
+        _part(f"{Path(vocabulary.source).stem}.commands.jsonl", SYNTHETIC, _templates, vocabulary),
         *_beside(vocabulary, path),
     ]
+
+
+def _part(
+    file: str, serves: str, look: Callable[[Vocabulary], tuple[State, str]], vocabulary: Vocabulary
+) -> Part:
+    try:
+        return Part(file, serves, *look(vocabulary))
+    except PlannerError as error:
+        return Part(file, serves, "wrong", str(error))
 
 
 def _definition(source: str) -> str:
@@ -147,47 +156,35 @@ def _beside(vocabulary: Vocabulary, path: Path) -> Iterator[Part]:
         yield Part(file.name, serves, state, text)
 
 
-def _templates(vocabulary: Vocabulary) -> Part:
+def _templates(vocabulary: Vocabulary) -> tuple[State, str]:
     """The command and prompt templates, and the tasks that none asks for."""
-    file = f"{Path(vocabulary.source).stem}.commands.jsonl"
-    try:
-        checked = list(checked_templates(vocabulary))
-        problems = [str(error) for _template, _drawn, error in checked if error]
-        commands = [one for group in templates(vocabulary, "commands") for one in group]
-        asked = {step.call.name for one in commands for step in one.steps}
-    except PlannerError as error:
-        return Part(file, SYNTHETIC, "wrong", str(error))
+    problems = [str(error) for _template, _drawn, error in checked_templates(vocabulary) if error]
+    commands = [one for group in templates(vocabulary, "commands") for one in group]
     if problems:
-        return Part(file, SYNTHETIC, "wrong", _first(problems))
+        return "wrong", _first(problems)
     if not template_files(vocabulary, "commands"):
-        return Part(file, SYNTHETIC, "missing", "without it, there are no synthetic missions")
+        return "missing", "without it, there are no synthetic missions"
+    asked = {step.call.name for one in commands for step in one.steps}
     prompts = sum(map(len, templates(vocabulary, "prompts")))
     size = f"{len(commands)} command and {prompts} prompt templates"
-    return Part(file, SYNTHETIC, "ready", size + _unused(vocabulary, "no command asks for", asked))
+    return "ready", size + _unused(vocabulary, "no command asks for", asked)
 
 
-def _mission_set(vocabulary: Vocabulary) -> Part:
+def _mission_set(vocabulary: Vocabulary) -> tuple[State, str]:
     """The curated commands, and the tasks that are in none of them."""
     folder = curated_folder(vocabulary) or vocabulary.data / "mission"
-    serves = "gen-data, train and bench --level mission"
     paths = [folder / f"{split}.jsonl" for split in SPLITS]
-    absent = [path.name for path in paths if not path.is_file()]
-    if absent:
-        text = f"{', '.join(absent)}: commands with their plans, written by people"
-        return Part("mission/", serves, "missing", text)
-    try:
-        reports = [validate_file(path, vocabulary, "mission", complete=True) for path in paths]
-        problems = [str(problem) for report in reports for problem in report.problems]
-        if problems:
-            return Part("mission/", serves, "wrong", _first(problems))
-        records = [record for path in paths for record in read_jsonl(path)]
-    except PlannerError as error:
-        return Part("mission/", serves, "wrong", str(error))
+    if absent := [path.name for path in paths if not path.is_file()]:
+        return "missing", f"{', '.join(absent)}: commands with their plans, written by people"
+    reports = [validate_file(path, vocabulary, "mission", complete=True) for path in paths]
+    if problems := [str(problem) for report in reports for problem in report.problems]:
+        return "wrong", _first(problems)
+    records = [record for path in paths for record in read_jsonl(path)]
     found = Counter(name for one in records for name in plan_names("mission", one["expected"]))
     text = f"{len(records)} commands" + _unused(vocabulary, "none has", found)
     if tags := unchecked_tags(records, vocabulary):
         text += f"; tags about tasks of other vehicles are not checked: {', '.join(tags)}"
-    return Part("mission/", serves, "ready", text)
+    return "ready", text
 
 
 def _unused(vocabulary: Vocabulary, words: str, used: Iterable[str]) -> str:

@@ -29,8 +29,7 @@ def plan_tree(document: PlanDocument) -> str:
 
 def _lines(document: PlanDocument) -> Iterator[str]:
     yield document["command"]
-    if origin := origin_of(document):
-        yield f"Origin of [0, 0]: {origin}"
+    yield from origin_line(document)
     yield from (one["text"] for one in document["warnings"] if one["kind"] == LANGUAGE)
     yield from confidence_lines(document)
     yield from task_tree(document)
@@ -60,6 +59,12 @@ def _lines(document: PlanDocument) -> Iterator[str]:
     for agent, use in document["usage"].items():
         yield f"{agent.capitalize()} Agent  {_use(use)}"
     yield f"peak memory {memory_size(document['peak_memory_bytes'])}"
+
+
+def origin_line(document: PlanDocument) -> list[str]:
+    """Where [0, 0] lies, in a line; none where nobody has said it."""
+    origin = origin_of(document)
+    return [f"Origin of [0, 0]: {origin}"] if origin else []
 
 
 def constraint_lines(document: PlanDocument) -> Iterator[str]:

@@ -7,7 +7,7 @@ the command states or the plan has elsewhere: nothing is invented, and no pass i
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,13 +50,11 @@ def _doubt(
     task = plan["tasks"][at]
     value = task["title"] if name is None else task["parameters"][name]
     if name is None:
-        known: list[Any] = [
-            one.title for one in vocabulary.tasks if renamed(task, one.title, vocabulary)
-        ]
+        titles = vocabulary.task
+        known: list[Any] = [title for title in titles if renamed(task, title, vocabulary)]
     else:
-        known = list(
-            _values(vocabulary.task[task["title"]].by_name[name], command, plan, vocabulary)
-        )
+        parameter = vocabulary.task[task["title"]].by_name[name]
+        known = _values(parameter, command, plan, vocabulary)
     others = [
         one
         for begun, _probability in judged.others[path]
@@ -85,30 +83,19 @@ def renamed(task: Plan, title: str, vocabulary: Vocabulary) -> dict[str, Any] | 
     return None if task_problems(made, vocabulary) else given
 
 
-def _values(
-    parameter: Parameter, command: str, plan: Plan, vocabulary: Vocabulary
-) -> Iterator[Any]:
+def _values(parameter: Parameter, command: str, plan: Plan, vocabulary: Vocabulary) -> list[Any]:
     """Values that a parameter can have and that the command states or the plan has elsewhere."""
-    for value in _stated(parameter, command, plan, vocabulary):
-        canonical = canonical_value(value)
-        if value_problem(canonical, parameter) is None:
-            yield canonical
-
-
-def _stated(
-    parameter: Parameter, command: str, plan: Plan, vocabulary: Vocabulary
-) -> Sequence[Any]:
     facts = read(command)
-    elsewhere = [
+    found: list[Any] = [
         value
         for task in plan["tasks"]
         for name, value in task["parameters"].items()
         if vocabulary.task[task["title"]].by_name[name].type == parameter.type
     ]
     if parameter.type in ("number", "integer"):
-        return [number.value for number in facts.numbers(parameter.unit)]
-    if parameter.type == "position":
-        places = [[place.x, place.y] for place in facts.positions]
+        found = [number.value for number in facts.numbers(parameter.unit)]
+    elif parameter.type == "position":
         own = [list(vocabulary.home), list(vocabulary.unresolved)]
-        return [*places, *elsewhere, *own]
-    return elsewhere
+        found = [*([place.x, place.y] for place in facts.positions), *found, *own]
+    canonical = map(canonical_value, found)
+    return [value for value in canonical if value_problem(value, parameter) is None]

@@ -36,7 +36,7 @@ def limits_in(texts: list[str], limits: Limits) -> list[Limit]:
     """The limits of sentences, each once."""
     found: list[Limit] = []
     for limit in (read_limit(text, limits) for text in texts):
-        if limit and not any(_same(limit, other) for other in found):
+        if limit and limit not in found:
             found.append(limit)
     return found
 
@@ -60,19 +60,17 @@ def with_limits(
     prompts = [kept(SENTENCE.split(task["task_prompt"]), prompt_sentence) for task in plan["tasks"]]
     stated = limits_in(constraints, limits)
     for limit in limits_in([text for texts in prompts for text in texts], limits):
-        if limit.kind in GENERAL and not any(_same(limit, one) for one in stated):
+        if limit.kind in GENERAL and limit not in stated:
             stated.append(limit)
             constraints.append(sentence(limit.kind, limit.values, limits))
     tasks = []
     for task, texts in zip(plan["tasks"], prompts, strict=True):
         own = limits_in(texts, limits)
-        missing = [
-            limit
+        added = [
+            prompt_sentence(limit.kind, limit.values, limits)
             for limit in stated
-            if holds_for(limit, task["title"], plan["tasks"])
-            and not any(_same(limit, one) for one in own)
+            if limit not in own and holds_for(limit, task["title"], plan["tasks"])
         ]
-        added = [prompt_sentence(limit.kind, limit.values, limits) for limit in missing]
         tasks.append({**task, "task_prompt": " ".join([*texts, *added]) or task["task_prompt"]})
     return {**plan, "tasks": tasks, "constraints": constraints}
 
@@ -140,7 +138,3 @@ def _whole(
         return text
     meant = [row for row in rows if all(corner in row for corner in ends)]
     return write(limit.kind, {"polygon": meant[0]}, limits) if len(meant) == 1 else text
-
-
-def _same(one: Limit, other: Limit) -> bool:
-    return (one.kind, one.values) == (other.kind, other.values)

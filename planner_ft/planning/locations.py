@@ -19,7 +19,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import canonical_value
+from planner_ft.vocabulary.plans import canonical_value, is_position
 from planner_ft.vocabulary.replay import target
 
 Position = tuple[float, float]
@@ -177,10 +177,8 @@ def read_places(path: Path, origin: Origin | None) -> dict[str, Position]:
     content = _content(path, flag)
     local = _converter(content, origin, flag)
     for number, feature in enumerate(_features(content), start=1):
-        geometry, name = (
-            feature.get("geometry") or {},
-            (feature.get("properties") or {}).get("name"),
-        )
+        geometry, properties = (feature.get(key) or {} for key in ("geometry", "properties"))
+        name = properties.get("name")
         if geometry.get("type") != "Point":
             continue
         if not isinstance(name, str) or not name.strip():
@@ -189,9 +187,8 @@ def read_places(path: Path, origin: Origin | None) -> dict[str, Position]:
         if places.setdefault(name.strip(), position) != position:
             raise PlannerError(f'{flag}: two points are named "{name}"; rename one of them')
     if not places:
-        raise PlannerError(
-            f'{flag}: has no points; a feature with a "Point" and a "name" is needed'
-        )
+        needed = 'a feature with a "Point" and a "name" is needed'
+        raise PlannerError(f"{flag}: has no points; {needed}")
     return places
 
 
@@ -233,10 +230,9 @@ def _converter(
 
     def local(coordinate: Any) -> Position:
         pair = coordinate[:2] if isinstance(coordinate, list) else []
-        numbers = [item for item in pair if type(item) in (int, float) and math.isfinite(item)]
-        if len(numbers) != 2:
+        if not is_position(pair):
             raise PlannerError(f"{flag}: {str(coordinate)[:60]} is no coordinate [x, y]")
-        first, second = map(float, numbers)
+        first, second = map(float, pair)
         if in_metres or origin is None:
             return first, second
         if abs(first) > 180 or abs(second) > 90:

@@ -99,17 +99,16 @@ class Planner:
         frame = agents_frame(command, origin)
         mission = self._mission(frame.spoken)
         unsure: list[Doubt] = []
-        if mission.plan is not None:
-            unsure = doubts(frame.spoken, mission.plan, mission.judged, self.vocabulary)
-            told = frame.restored(mission.plan, self.vocabulary)
-            mission = replace(mission, plan=with_limits(told, self.vocabulary, frame.spoken))
         tasks: tuple[PlannedTask, ...] = ()
         places: list[OpenPlace] = []
         located = {}
         if mission.plan is not None:
-            known, unused = fitting(mission.plan, locations or {}, self.vocabulary)
-            filled = resolve(mission.plan, known, self.vocabulary)
-            mission = replace(mission, notes=(*mission.notes, *unused))
+            unsure = doubts(frame.spoken, mission.plan, mission.judged, self.vocabulary)
+            told = frame.restored(mission.plan, self.vocabulary)
+            plan = with_limits(told, self.vocabulary, frame.spoken)
+            known, unused = fitting(plan, locations or {}, self.vocabulary)
+            mission = replace(mission, plan=plan, notes=(*mission.notes, *unused))
+            filled = resolve(plan, known, self.vocabulary)
             found = charted(chart or {}, open_places(filled, self.vocabulary))
             # A place that the plan does not need is a point of the chart all the same.
             unknown = self.vocabulary.unresolved

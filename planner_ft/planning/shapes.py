@@ -78,8 +78,15 @@ def with_shape(
 def goal_of(step: Step, vocabulary: Vocabulary) -> Point | None:
     """Where a step goes; None for one that goes nowhere."""
     skill = step["navigation_skill"]
-    names = [item.name for item in vocabulary.skill[skill["name"]].coordinates]
+    names = _axes(skill["name"], vocabulary)
     return (skill["parameters"][names[0]], skill["parameters"][names[1]]) if names else None
+
+
+def with_goal(step: Step, point: Sequence[float], vocabulary: Vocabulary) -> Step:
+    """The step with another goal."""
+    skill = step["navigation_skill"]
+    at = dict(zip(_axes(skill["name"], vocabulary), canonical_value(list(point)), strict=True))
+    return {**step, "navigation_skill": {**skill, "parameters": {**skill["parameters"], **at}}}
 
 
 def _placed(
@@ -88,13 +95,21 @@ def _placed(
     """The steps with other waypoints, by index, and a mark for each coordinate."""
     done, marks = [copy.deepcopy(step) for step in steps], Added()
     for at, point in points:
-        skill = done[at]["navigation_skill"]
-        names = vocabulary.skill[skill["name"]].coordinates
-        for item, value in zip(names, canonical_value(list(point)), strict=True):
-            skill["parameters"][item.name] = value
-            mark = {"step": at, "role": "navigation", "name": skill["name"], "kind": VEHICLE}
-            marks.append({**mark, "parameter": item.name})
+        done[at] = with_goal(done[at], point, vocabulary)
+        name = done[at]["navigation_skill"]["name"]
+        mark = {"step": at, "role": "navigation", "name": name, "kind": VEHICLE}
+        marks += [{**mark, "parameter": axis} for axis in _axes(name, vocabulary)]
     return done, marks
+
+
+def _axes(skill: str, vocabulary: Vocabulary) -> list[str]:
+    """The parameters for x and y of a skill that goes somewhere, as its motion or its definition
+    has them; none of another.
+    """
+    motion = vocabulary.motion.of(skill)
+    if motion is not None and motion.kind == "go":
+        return [motion.parameters["x"], motion.parameters["y"]]
+    return [item.name for item in vocabulary.skill[skill].coordinates]
 
 
 # ---------------------------------------------------------------- passes

@@ -102,10 +102,6 @@ def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
         before = item
 
 
-def _records(first: int, last: int) -> str:
-    return f"record {first} is" if first == last else f"records {first} to {last} are"
-
-
 def _head_problems(records: tuple[Record, ...], head: Head | None) -> Iterator[Problem]:
     count = len(records)
     if head is None:
@@ -116,7 +112,9 @@ def _head_problems(records: tuple[Record, ...], head: Head | None) -> Iterator[P
         return
     last = head.sequence
     if last > count:
-        cut = f"line {count + 1} is missing: {_records(count + 1, last)} known to the head file"
+        many = f"records {count + 1} to {last} are"
+        known = f"record {last} is" if last == count + 1 else many
+        cut = f"line {count + 1} is missing: {known} known to the head file"
         yield Problem(count + 1, f"{cut}; lines were removed at the end")
     elif last < count - 1:
         ends = f"the head file ends at record {last}, the log at record {count}"

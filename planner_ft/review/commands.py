@@ -12,6 +12,7 @@ from typing import Any
 
 from planner_ft.document import PlanDocument
 from planner_ft.document.confidence import LETTERS
+from planner_ft.document.entered import known, titled
 from planner_ft.planning.locations import parse_location
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
@@ -55,15 +56,14 @@ class _Typed:
         """NUMBER.NAME=VALUE, or a value of a skill."""
         task, name = self._task(path[0]), path[-1]
         if len(path) == 2:
-            title = task["title"]
-            parameter = _parameter(name, title, self.vocabulary.task[title].by_name)
+            parameter = known(self.vocabulary.task[task["title"]], task["title"], name)
             return _edit("parameter", task, name=name, value=_value(value, parameter))
         step = _number(path[1])
         if step is None or len(path) > 4:
             forms = "TASK.PARAMETER, TASK.STEP.PARAMETER or TASK.STEP.SKILL.PARAMETER"
             raise _expected(".".join(path), forms, "2.1.GoToXY.x")
         role, index, skill = _skill(task, step, path[2] if len(path) == 4 else None)
-        parameter = _parameter(name, skill, self.vocabulary.skill[skill].by_name)
+        parameter = known(self.vocabulary.skill[skill], skill, name)
         where = {"step": step - 1, "role": role, "index": index}
         return _edit("skill", task, **where, name=name, value=_value(value, parameter))
 
@@ -104,9 +104,9 @@ class _Typed:
 
     def locate(self, rest: str) -> Edit:
         name, position = parse_location(rest)
-        known = [place["name"] for place in self.document["open_places"]]
-        known += self.document["located"]
-        same = [other for other in known if other.casefold() == name.casefold()]
+        places = [place["name"] for place in self.document["open_places"]]
+        places += self.document["located"]
+        same = [other for other in places if other.casefold() == name.casefold()]
         return {"kind": "locate", "name": [*same, name][0], "position": list(position)}
 
     def prompt(self, rest: str) -> Edit:
@@ -122,18 +122,15 @@ class _Typed:
         if at is None or not title:
             forms, example = "a place, a task and its parameters", "target_position=[0,0]"
             raise _expected(f"insert {rest}", forms, f"insert 2 Transit {example}")
-        if title not in self.vocabulary.task:
-            there = ", ".join(self.vocabulary.task)
-            raise PlannerError(f"{title}: is no task of this vehicle; there is {there}")
-        known = self.vocabulary.task[title].by_name
-        names = (*known, "prompt")
+        own = titled(title, self.vocabulary).by_name
+        names = (*own, "prompt")
         before, *found = re.split(rf"(?:^|\s)({'|'.join(map(re.escape, names))})\s*=", given)
         if unknown := before.strip():
             problem = f"{unknown!r} is no parameter of {title}; there is {', '.join(names)}"
             raise PlannerError(f"insert {rest}: {problem}")
         values = dict(zip(found[::2], map(str.strip, found[1::2]), strict=True))
         prompt = values.pop("prompt", "")
-        parameters = {name: _value(value, known[name]) for name, value in values.items()}
+        parameters = {name: _value(value, own[name]) for name, value in values.items()}
         inserted = {"title": title, "parameters": parameters, "task_prompt": prompt}
         return {"kind": "insert", "at": at - 1, **inserted}
 
@@ -199,13 +196,6 @@ def _skill(task: dict[str, Any], step: int, name: str | None) -> tuple[str, int,
         counts[role], named[skill["name"]] = index + 1, number
     problem = f"step {step} has no skill {name}; it has {', '.join(named)}"
     raise PlannerError(f"{task['title']}: {problem}")
-
-
-def _parameter(name: str, owner: str, known: Mapping[str, Parameter]) -> Parameter:
-    if name not in known:
-        there = ", ".join(known) or "none"
-        raise PlannerError(f"{name}: is no parameter of {owner}; there is {there}")
-    return known[name]
 
 
 def _value(text: str, parameter: Parameter) -> Any:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +86,8 @@ def harvest_files(
             lines[path] = canonical_record("mission", samples[path], known)
         except LeftOutError as error:
             left_out[path] = str(error)
-    ordered = sorted(samples, key=lambda path: _approved(samples[path]))
+    when = itemgetter("time", "sequence")
+    ordered = sorted(samples, key=lambda path: when(samples[path]["provenance"]))
     latest = {samples[path]["prompt"]: path for path in ordered}
     for path in [path for path in samples if latest[samples[path]["prompt"]] != path]:
         later = latest[samples.pop(path)["prompt"]]
@@ -207,8 +209,3 @@ def _expected(
         "assumptions": assumptions,
         "constraints": list(dict.fromkeys(document["constraints"])),
     }
-
-
-def _approved(sample: dict[str, Any]) -> tuple[str, int]:
-    """When a sample's plan was approved."""
-    return sample["provenance"]["time"], sample["provenance"]["sequence"]

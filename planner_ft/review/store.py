@@ -13,7 +13,7 @@ from filelock import FileLock
 from planner_ft.document import PlanDocument, document_digest, write_document
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
-from planner_ft.vocabulary.document_schema import FORMAT
+from planner_ft.vocabulary.schema import FORMAT
 
 MOST_PLANS = 200
 """Plans of the folder that are offered, newest first."""

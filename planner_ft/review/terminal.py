@@ -14,9 +14,8 @@ from planner_ft.document.brief import brief, overview_lines
 from planner_ft.document.confidence import choice_lines, confidence_lines
 from planner_ft.document.differences import Difference
 from planner_ft.document.track import track
-from planner_ft.document.tree import constraint_lines, task_tree
+from planner_ft.document.tree import constraint_lines, origin_line, task_tree
 from planner_ft.document.warnings.kinds import gravest_first, meaning
-from planner_ft.planning.frame import origin_of
 from planner_ft.review.approval import Approval
 from planner_ft.review.changes import tampered
 from planner_ft.review.chart import chart
@@ -31,6 +30,7 @@ from planner_ft.support.terminal import plain
 from planner_ft.vocabulary import Vocabulary
 
 PROMPT = "approve, reject, an edit (help shows them), show or quit: "
+ADOPT = {"adopt": "take over what was changed by hand"}
 WIDEST = 120
 SHOWN_CHANGES = 40
 SEVERITY_STYLES = {"danger": "bold red", "caution": "yellow", "note": ""}
@@ -66,14 +66,14 @@ def review_lines(
     tasks = [task["id"] for task in document["tasks"]]
     sections: dict[str, Iterable[str]] = {
         "Not checked": (f" - {text}" for text in short.unchecked),
-        "Command": [*document["command"].splitlines(), *_origin(document)],
+        "Command": [*document["command"].splitlines(), *origin_line(document)],
         "Tasks": task_tree(document),
         "Where values come from": _sources(document),
         "Assumptions": (f" - {text}" for text in document["assumptions"]),
         "Constraints": (f" - {text}" for text in constraint_lines(document)),
         "Track": chart(course, tasks, vocabulary.home, **drawing),
         "Estimate": [_estimate(document)],
-        "Changed since the model proposed it": _items(differences(document)),
+        "Changed since the model proposed it": (f" - {one.text}" for one in differences(document)),
     }
     for heading, lines in sections.items():
         if shown := list(lines):
@@ -86,10 +86,6 @@ def approval_text(approval: Approval) -> list[str]:
     rest = [f" - ... and {more} more; plannerft verify --json shows all"] if more > 0 else []
     shown = [f" - {plain(change.text)}" for change in approval.changes[:SHOWN_CHANGES]]
     return [approval.text, *shown, *rest]
-
-
-def _items(found: Iterable[Difference]) -> Iterator[str]:
-    return (f" - {difference.text}" for difference in found)
 
 
 def _warnings(document: PlanDocument) -> Iterator[Line]:
@@ -107,11 +103,6 @@ def _warnings(document: PlanDocument) -> Iterator[Line]:
 def _counted(document: PlanDocument, none: str) -> str:
     count = len(document["warnings"])
     return f"{count or none} warning{'s' if count != 1 else ''}"
-
-
-def _origin(document: PlanDocument) -> Iterator[str]:
-    if origin := origin_of(document):
-        yield f"Origin of [0, 0]: {origin}"
 
 
 def _sources(document: PlanDocument) -> Iterator[str]:
@@ -185,8 +176,8 @@ class Conversation:
         self._saved(differences(self.desk.document), what)
 
     def _saved(self, changed: Iterable[Difference], what: str) -> None:
-        for line in _items(changed):
-            self.say(line, "cyan")
+        for one in changed:
+            self.say(f" - {one.text}", "cyan")
         for line in f"{what}saved; {_counted(self.desk.document, 'no')}".splitlines():
             self.say(line)
 
@@ -213,7 +204,8 @@ class Conversation:
                 case "adopt":
                     self.adopt()
                 case "edit" | "e" | "help" | "h" | "?":
-                    self._help()
+                    for example, effect in (HELP | ADOPT).items():
+                        self.say(f"  {example:{max(map(len, HELP))}}  {effect}")
                 case _:
                     self.edit(text)
         except ChangedError as error:
@@ -249,7 +241,3 @@ class Conversation:
         style = "bold green" if record["event"] == "approved" else "bold red"
         number = record["sequence"]
         self.say(f"{record['event']} by {record['reviewer']}: record {number} of {log}", style)
-
-    def _help(self) -> None:
-        for example, effect in (HELP | {"adopt": "take over what was changed by hand"}).items():
-            self.say(f"  {example:{max(map(len, HELP))}}  {effect}")

@@ -64,13 +64,13 @@ Limits = Mapping[str, LimitKind]
 @dataclass(frozen=True)
 class Limit:
     """One limit: its kind, its values by name, the sentence that it was read from, and the titles
-    of the tasks that it holds for (none: all).
+    of the tasks that it holds for (none: all). Two of one kind with the same values are equal.
     """
 
     kind: str
     values: dict[str, Any]
-    text: str
-    titles: tuple[str, ...] = ()
+    text: str = field(compare=False)
+    titles: tuple[str, ...] = field(default=(), compare=False)
 
     def holds_for(self, title: str) -> bool:
         """Whether it is a limit of tasks of this title."""

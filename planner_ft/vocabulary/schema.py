@@ -6,6 +6,7 @@ the form that grammar compilers take.
 
 from __future__ import annotations
 
+import functools
 import json
 from pathlib import Path
 from typing import Any
@@ -34,12 +35,20 @@ VALUES: dict[str, Schema] = {
 """Per type of parameter, except for numbers, the schema of a value."""
 ELEMENTS = ("objective", "target", "sensor", "constraint")
 """Elements of a well-formed command: objective, target, sensor and data, constraint."""
+FORMAT = "planner_ft plan"
+VERSION = 1
+TASK_KEYS = (
+    *("id", "title", "parameters", "defaults", "task_prompt", "skill_sequence", "added", "stale"),
+    *("waits_for", "asks", "located", "sources", "confidence", "assumptions", "problems"),
+    "output",
+)
+"""The keys of a document's task in their order."""
 
 
 def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema:
     """The schema of a plan: the structure, or also names, roles, parameters, types and ranges."""
     if level == "mission":
-        task: Schema = {"anyOf": [_named_task(task) for task in vocabulary.tasks]}
+        task: Schema = {"anyOf": [_named(task, task_prompt=TEXT) for task in vocabulary.tasks]}
         if not strict:
             task = object_schema({"title": TEXT, "parameters": OBJECT, "task_prompt": TEXT})
         properties = {"tasks": _array(task), **dict.fromkeys(MISSION_KEYS[1:], TEXTS)}
@@ -84,15 +93,11 @@ def record_schema(vocabulary: Vocabulary) -> Schema:
 
 def manifest_schema() -> Schema:
     """The schema of a run manifest."""
-    from planner_ft.vocabulary.document_schema import frame_schema
-
     return {"$schema": DRAFT, **frame_schema()["properties"]["manifest"]}
 
 
 def all_schemas(vocabulary: Vocabulary) -> dict[str, Schema]:
     """Every schema by file name."""
-    from planner_ft.vocabulary.document_schema import document_schema
-
     schemas: dict[str, Schema] = {}
     for level in LEVELS:
         schemas[level] = plan_schema(level, vocabulary, strict=False)
@@ -148,7 +153,7 @@ def step_schema(vocabulary: Vocabulary, strict: bool) -> Schema:
     """The schema of one step of a skill sequence."""
     anything = object_schema({"name": TEXT, "parameters": OBJECT})
     navigation, *beside = (
-        {"anyOf": [_named_skill(skill) for skill in vocabulary.skills_in_role(role)]}
+        {"anyOf": [_named(skill) for skill in vocabulary.skills_in_role(role)]}
         if strict
         else anything
         for role in ROLES
@@ -174,11 +179,60 @@ def _array(items: Schema) -> Schema:
     return {"type": "array", "items": items}
 
 
-def _named_task(task: Task) -> Schema:
-    own = {"title": {"const": task.title}, "parameters": parameters_schema(task)}
-    return object_schema({**own, "task_prompt": TEXT}, strict=True)
-
-
-def _named_skill(skill: Skill) -> Schema:
-    own = {"name": {"const": skill.name}, "parameters": parameters_schema(skill)}
+def _named(owner: Task | Skill, **more: Schema) -> Schema:
+    """A task or a skill as plans have it, called by its name."""
+    key, name = ("title", owner.title) if isinstance(owner, Task) else ("name", owner.name)
+    own = {key: {"const": name}, "parameters": parameters_schema(owner), **more}
     return object_schema(own, strict=True)
+
+
+# ---------------------------------------------------------------- plan documents
+
+
+@functools.cache
+def frame_schema() -> Schema:
+    """The schema of a document with titles, parameters and steps of any kind."""
+    frame: Schema = json.loads(read_text(SHAPES / "document.schema.json"))
+    return frame
+
+
+def document_keys() -> tuple[str, ...]:
+    """The keys of a document in their order."""
+    return tuple(frame_schema()["properties"])
+
+
+def document_schema(vocabulary: Vocabulary) -> Schema:
+    """The schema of the documents that `plannerft plan` writes."""
+    frame = frame_schema()
+    properties = frame["properties"]
+    proposed = properties["proposed"]
+    inner = {**proposed["properties"], "tasks": _tasks(proposed, vocabulary)}
+    return {
+        "$schema": DRAFT,
+        "title": f"plan of the {vocabulary.title}",
+        **{key: value for key, value in frame.items() if key not in ("$schema", "$defs")},
+        "properties": {
+            **properties,
+            "tasks": _tasks(frame, vocabulary),
+            "proposed": {**proposed, "properties": inner},
+        },
+        "$defs": {"step": step_schema(vocabulary, strict=True), **frame["$defs"]},
+    }
+
+
+def task_schema(vocabulary: Vocabulary) -> Schema:
+    """The schema of one task as it is proposed or edited: without the sources of its values."""
+    tasks = _tasks(frame_schema()["properties"]["proposed"], vocabulary)
+    return {**tasks["items"], "$defs": {"step": step_schema(vocabulary, strict=True)}}
+
+
+def _tasks(frame: Schema, vocabulary: Vocabulary) -> Schema:
+    """The schema of the tasks in a part of the frame: one alternative per task title."""
+    one = frame["properties"]["tasks"]["items"]
+    steps = {"anyOf": [{"type": "null"}, {"type": "array", "items": {"$ref": "#/$defs/step"}}]}
+    alternatives = []
+    for task in vocabulary.tasks:
+        own = {"title": {"const": task.title}, "parameters": parameters_schema(task)}
+        properties = {**one["properties"], **own, "skill_sequence": steps}
+        alternatives.append({**one, "properties": properties})
+    return {"type": "array", "items": {"anyOf": alternatives}}

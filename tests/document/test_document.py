@@ -27,7 +27,7 @@ from planner_ft.document.build import canonical
 from planner_ft.document.files import document_problem
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.document_schema import document_schema
+from planner_ft.vocabulary.schema import document_schema
 from tests.documents import DRONE, USV, document, step, task
 from tests.values import changeable
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from planner_ft.document import PlanDocument, adopt, altered, apply, differences, operations, undo
 from planner_ft.document.entered import reword
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.document_schema import document_schema
+from planner_ft.vocabulary.schema import document_schema
 from tests.documents import USV, document, step, task
 
 SCHEMA = jsonschema.Draft202012Validator(document_schema(USV))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import inspect
-import math
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Any
@@ -27,6 +26,7 @@ from planner_ft.review.web.planning import BusyError
 from planner_ft.review.web.session import Session
 from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.files import compact_json, decode_json
+from planner_ft.vocabulary.plans import is_position
 
 PAGE = Path(__file__).parent / "page"
 LOOK_EVERY = 1.0
@@ -152,7 +152,7 @@ FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
         "a list of texts",
     ),
     "Locations": (
-        lambda value: isinstance(value, dict) and all(map(_is_position, value.values())),
+        lambda value: isinstance(value, dict) and all(map(is_position, value.values())),
         "an object of names with positions [x, y] in metres east and north of home",
     ),
 }
@@ -167,14 +167,6 @@ def _field(value: Any, key: inspect.Parameter) -> Any:
     if not fits(value):
         raise PlannerError(f"{key.name} must be {expected}")
     return value
-
-
-def _is_position(value: Any) -> bool:
-    return (
-        isinstance(value, list)
-        and len(value) == 2
-        and all(type(item) in (int, float) and math.isfinite(item) for item in value)
-    )
 
 
 # ---------------------------------------------------------------- errors
