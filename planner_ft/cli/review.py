@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import typer
@@ -118,7 +119,7 @@ def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | Non
     document = read_document(plan, load_vocabulary(vocabulary) if vocabulary else None)
     approval = approval_of(document, existing_log(log) if log else log_beside(plan))
     if json:
-        show(indented_json({"plan": str(plan), **approval.as_json()}), end="")
+        show(indented_json({"plan": str(plan), **asdict(approval)}), end="")
     else:
         show("\n".join(approval_text(approval)))
     raise typer.Exit(0 if approval.status == "approved" else 1)

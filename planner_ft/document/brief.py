@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.document.confidence import in_unit
@@ -53,9 +53,6 @@ class Brief:
     unchecked: tuple[str, ...]
     structures: tuple[Structure, ...]
     fences: tuple[Fence, ...]
-
-    def as_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 def brief(document: Document, path: Track, vocabulary: Vocabulary) -> Brief:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from planner_ft.document.build import PlanDocument
@@ -27,10 +27,6 @@ class Difference:
     after: Any
     text: str
     by: str | None = None
-
-    def as_json(self) -> dict[str, Any]:
-        """The change as a JSON object."""
-        return asdict(self)
 
 
 def differences(document: PlanDocument) -> list[Difference]:

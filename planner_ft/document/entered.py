@@ -66,9 +66,9 @@ def _visible(text: str) -> str:
     return text
 
 
-def short(text: str) -> str:
-    """A value as a sentence repeats it."""
-    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."
+def short(text: str, most: int = LONGEST_SHOWN) -> str:
+    """A value as a sentence repeats it, cut at so many characters."""
+    return text if len(text) <= most else f"{text[:most]} ..."
 
 
 def reword(prompt: str, before: Any, after: Any) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.document.build import PlanDocument, document_digest
+from planner_ft.document.entered import short
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
@@ -60,14 +61,14 @@ def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:
     found = best_match(_frame().iter_errors(document))
     if found is not None:
         where = found.json_path.removeprefix("$").lstrip(".") or "the document"
-        return f"{where}: {_short(found.message)}"
+        return f"{where}: {short(found.message, LONGEST_SHOWN)}"
     for where, part in (("tasks", document), ("proposed.tasks", document["proposed"])):
         for index, task in enumerate(part["tasks"]):
             steps = {"skill_sequence": task["skill_sequence"] or []}
             problems = task_problems(task, vocabulary)
             problems += plan_problems("task", steps, vocabulary, strict=True)
             if problems:
-                return f"{where}[{index}]: {_short(problems[0])}"
+                return f"{where}[{index}]: {short(problems[0], LONGEST_SHOWN)}"
     return None
 
 
@@ -88,10 +89,6 @@ def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
     written = {**document, "digest": document_digest(document)}
     write_json(path, written)
     return written
-
-
-def _short(message: str) -> str:
-    return message if len(message) <= LONGEST_SHOWN else f"{message[:LONGEST_SHOWN]} ..."
 
 
 @cache

@@ -19,7 +19,7 @@ from planner_ft.document.vehicle import load_vehicle
 from planner_ft.facts.units import named
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_jsonl, read_text, write_text
+from planner_ft.support.files import read_jsonl, read_text, write_text, writing
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED, bundled_vocabularies
 from planner_ft.vocabulary.essentials import load_essentials
@@ -75,18 +75,16 @@ def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
     if folder.exists():
         raise PlannerError(f"{folder} exists; give a new folder with --out")
     spaced, written = EXAMPLE.replace("_", " "), []
-    try:
-        with alone(folder, "--out", "vehicle new"), staging(folder) as staged:
-            for path in sorted(SKELETON.rglob("*.*")):
-                place = path.relative_to(SKELETON)
-                if place.parent == Path():
-                    place = Path(f"{name}.{path.name}".replace(".definition.", "."))
-                text = read_text(path).replace(EXAMPLE, name)
-                write_text(staged / place, text.replace(spaced, name.replace("_", " ")))
-                written.append(folder / place)
-            staged.replace(folder)
-    except OSError as error:
-        raise PlannerError(f"--out {folder}: cannot be written ({error.strerror})") from None
+    free = writing(f"--out {folder}", "choose another folder")
+    with free, alone(folder, "--out", "vehicle new"), staging(folder) as staged:
+        for path in sorted(SKELETON.rglob("*.*")):
+            place = path.relative_to(SKELETON)
+            if place.parent == Path():
+                place = Path(f"{name}.{path.name}".replace(".definition.", "."))
+            text = read_text(path).replace(EXAMPLE, name)
+            write_text(staged / place, text.replace(spaced, name.replace("_", " ")))
+            written.append(folder / place)
+        staged.replace(folder)
     return written
 
 

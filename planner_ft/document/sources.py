@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from planner_ft.document.entered import short
 from planner_ft.document.language import language
 from planner_ft.facts import Evidence, Input, Span, read_input
 from planner_ft.planning.frame import frame_of
@@ -74,7 +75,7 @@ def _edited(
     if name not in proposed:
         return _from("operator", note="added")
     if proposed[name] != task["parameters"][name]:
-        return _from("operator", note=f"proposed: {_shown(proposed[name])}")
+        return _from("operator", note=f"proposed: {short(str(proposed[name]), 60)}")
     return None
 
 
@@ -113,7 +114,3 @@ def _from(kind: str, spans: tuple[Span, ...] = (), note: str = "") -> Source:
     if spans:
         source["spans"] = [list(span) for span in spans]
     return {**source, "note": note} if note else source
-
-
-def _shown(value: Any) -> str:
-    return str(value) if len(str(value)) <= 60 else f"{str(value)[:60]} ..."

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from planner_ft.planning.locations import is_open
@@ -86,10 +86,6 @@ class Track:
     def last(self, home: Point) -> Point:
         """The last known point."""
         return next((leg.points[-1] for leg in reversed(self.legs) if leg.points), home)
-
-    def as_json(self) -> dict[str, Any]:
-        """Everything as a JSON object."""
-        return asdict(self)
 
 
 def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:

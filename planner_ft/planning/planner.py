@@ -26,7 +26,7 @@ from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
 from planner_ft.planning.shapes import with_pass, with_shape
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import nearest_folder
+from planner_ft.support.files import nearest_folder, writing
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
@@ -250,10 +250,6 @@ def new_file(path: Path, *, overwrite: bool) -> Path:
         raise PlannerError(f"--out {path}: is a folder; give a file")
     if path.exists() and not overwrite:
         raise PlannerError(f"--out {path}: exists; give --overwrite to replace it, or another file")
-    try:
-        with tempfile.TemporaryFile(dir=nearest_folder(path.parent)):
-            return path
-    except OSError as error:
-        raise PlannerError(
-            f"--out {path}: cannot be written ({error.strerror}); choose another folder"
-        ) from None
+    with writing(f"--out {path}", "choose another folder"):
+        tempfile.TemporaryFile(dir=nearest_folder(path.parent)).close()
+    return path

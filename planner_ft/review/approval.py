@@ -89,7 +89,7 @@ def _decision(
         "digest": digest,
         "plan": {**document, "digest": digest},
         "acknowledged": acknowledged,
-        "differences": [difference.as_json() for difference in differences(document)],
+        "differences": [asdict(difference) for difference in differences(document)],
         "models": models,
     }
 
@@ -151,9 +151,6 @@ class Approval:
     time: str | None = None
     reason: str | None = None
     changes: tuple[Change, ...] = ()
-
-    def as_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 def approval_of(document: PlanDocument, log: Path) -> Approval:

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.document import PlanDocument, altered
 from planner_ft.document.edits import replayed
+from planner_ft.document.entered import short
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 
-LONGEST = 120
-"""Characters of a value that are shown."""
 DERIVED = frozenset(
     ["edits", "ontology", "sources", "open_places", "warnings", "estimate", "valid", "complete"]
 )
@@ -30,9 +29,6 @@ class Change:
     approved: Any
     now: Any
     text: str
-
-    def as_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 def tampered(document: PlanDocument, vocabulary: Vocabulary) -> list[Change] | None:
@@ -122,5 +118,4 @@ def _change(path: str, words: Words, before: Any, after: Any) -> Change:
 
 
 def _shown(value: Any) -> str:
-    text = "nothing" if value is None else compact_json(value)
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
+    return short("nothing" if value is None else compact_json(value))

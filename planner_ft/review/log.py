@@ -7,6 +7,7 @@ A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", 
 
 from __future__ import annotations
 
+import contextlib
 import os
 from datetime import UTC, datetime
 from pathlib import Path
@@ -22,6 +23,7 @@ from planner_ft.support.files import (
     read_json,
     sha256_text,
     sync_folder,
+    writing,
 )
 
 LOG_NAME = "approvals.jsonl"
@@ -100,13 +102,10 @@ def _sound(log: Path) -> Chain:
 
 
 def _read_bytes(log: Path) -> bytes:
-    try:
-        return log.read_bytes()
-    except FileNotFoundError:
+    with writing(log, "give another --log", "cannot be read"):
+        with contextlib.suppress(FileNotFoundError):
+            return log.read_bytes()
         return b""
-    except OSError as error:
-        problem = f"{log}: cannot be read ({error.strerror})"
-        raise PlannerError(f"{problem}; give another --log") from None
 
 
 def _read_head(log: Path) -> Head | None:
@@ -130,14 +129,11 @@ def _write_head(log: Path, head: Head) -> None:
 
 
 def _write_line(log: Path, line: bytes) -> None:
-    try:
-        with open(log, "ab", buffering=0) as stream:
-            while line:
-                line = line[stream.write(line) :]
-            os.fsync(stream.fileno())
-    except OSError as error:
-        problem = f"{log}: nothing was recorded ({error.strerror})"
-        raise PlannerError(f"{problem}; free some space or give another --log") from None
+    way = "free some space or give another --log"
+    with writing(log, way, "nothing was recorded"), open(log, "ab", buffering=0) as stream:
+        while line:
+            line = line[stream.write(line) :]
+        os.fsync(stream.fileno())
     sync_folder(log.parent)
 
 

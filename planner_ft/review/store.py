@@ -12,7 +12,7 @@ from filelock import FileLock
 
 from planner_ft.document import PlanDocument, document_digest, write_document
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json
+from planner_ft.support.files import read_json, writing
 from planner_ft.vocabulary.schema import FORMAT
 
 MOST_PLANS = 200
@@ -32,12 +32,10 @@ class ChangedError(PlannerError):
 def exclusive(path: Path) -> Iterator[None]:
     """Hold the lock file .NAME.lock beside `path`; waits for other holders. Not re-entrant."""
     lock = FileLock(path.with_name(f".{path.name}.lock"))
-    try:
+    what = f"cannot be made, so nothing is written to {path.name}"
+    with writing(lock.lock_file, "make the folder writable", what):
         path.parent.mkdir(parents=True, exist_ok=True)
         lock.acquire(poll_interval=0.01)
-    except OSError as error:
-        problem = f"cannot be made ({error.strerror}), so nothing is written to {path.name}"
-        raise PlannerError(f"{lock.lock_file}: {problem}; make the folder writable") from None
     try:
         yield
     finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import json
 import math
@@ -152,7 +153,7 @@ def test_a_track_is_plain_json_whatever_the_numbers_are() -> None:
         transit(1e308, 1e308, []) | {"skill_sequence": None},
         transit(-1e308, 0, []) | {"skill_sequence": None},
     )
-    json.dumps(path.as_json(), allow_nan=False)
+    json.dumps(dataclasses.asdict(path), allow_nan=False)
 
 
 def test_the_estimate_sums_what_is_known_and_names_the_rest() -> None:

@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from planner_ft.review.approval import record_run
 from planner_ft.review.desk import Desk
@@ -23,28 +23,19 @@ Frame = dict[str, Any]
 """t (s), pose [x, y, yaw], task, step, skills, left (s): a moment of a run."""
 
 
-class Runner(Protocol):
-    """What carries a plan out (planner_ft.simulation.live)."""
-
-    def __call__(
-        self,
-        plan: Path,
-        log: Path,
-        folder: Path,
-        vocabulary: str,
-        speed: float,
-        tell: Callable[[Frame], None],
-        stop: Stop,
-    ) -> dict[str, Any]:
-        """Run a plan; its outcome, reason and seconds. Raises PlannerError."""
-
-
 @dataclass
 class Stop:
     """Ends a run at its next step once it is `set`; `reason` stands in its log."""
 
     reason: str = ""
     event: threading.Event = field(default_factory=threading.Event)
+
+
+Runner = Callable[[Path, Path, Path, str, float, Callable[[Frame], None], Stop], dict[str, Any]]
+"""Carries a plan out (planner_ft.simulation.live): the files of plan and log, the folder of the
+run, vocabulary, speed, what to call with each frame, and what stops it; gives outcome, reason and
+seconds. Raises PlannerError.
+"""
 
 
 @dataclass

@@ -28,17 +28,17 @@ def plan_state(desk: Desk | None) -> State:
         return {**dict.fromkeys(PLAN), "differences": [], "approval": approval}
     document = desk.document
     try:
-        approval = desk.approval().as_json()
+        approval = asdict(desk.approval())
     except PlannerError as error:
         # A log that is broken keeps nobody from looking at the plan.
         approval = _undecided(str(error))
     course = track(document, desk.vocabulary)
-    short = brief(document, course, desk.vocabulary).as_json()
+    short = asdict(brief(document, course, desk.vocabulary))
     foreign = tampered(document, desk.vocabulary)
     found = None if foreign is None else [one.text for one in foreign]
-    about = desk.path.name, desk.revision, course.as_json(), short, found, _named(document)
+    about = desk.path.name, desk.revision, asdict(course), short, found, _named(document)
     values = (document, *about)
-    changed = [difference.as_json() for difference in differences(document)]
+    changed = [asdict(difference) for difference in differences(document)]
     return {**dict(zip(PLAN, values, strict=True)), "differences": changed, "approval": approval}
 
 
