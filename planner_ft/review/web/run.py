@@ -62,22 +62,18 @@ class _Run:
         return not self.ended and not self.stop.event.is_set()
 
 
+@dataclass
 class Runs:
     """The last run of a session. Actions come from any thread."""
 
-    def __init__(
-        self,
-        runner: Runner | None,
-        log: Path,
-        vocabulary: str,
-        events: Events,
-        changed: Callable[[], None],
-    ) -> None:
-        self.runner, self.log, self.vocabulary = runner, log, vocabulary
-        self.events, self.changed = events, changed
-        self.last: _Run | None = None
-        self._thread: threading.Thread | None = None
-        self._lock = threading.Lock()
+    runner: Runner | None
+    log: Path
+    vocabulary: str
+    events: Events
+    changed: Callable[[], None]
+    last: _Run | None = None
+    _thread: threading.Thread | None = None
+    _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def as_json(self) -> dict[str, Any]:
         """The last run without its frames; "status" None before the first."""
