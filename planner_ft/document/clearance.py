@@ -6,7 +6,6 @@ import heapq
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.document.structures import (
@@ -63,17 +62,20 @@ def _walls(face: Face) -> list[Structure]:
     return [Structure("", point, face.distance) for point in points]
 
 
-@dataclass
 class _Steps:
     """The steps of one task, drawn one after the other; what was changed is marked in `added`."""
 
-    task: dict[str, Any]
-    known: Sequence[Structure]
-    circle: tuple[Point, float] | None
-    pen: Pen
-    face: Face | None
-    steps: list[Step] = field(default_factory=list)
-    marks: Marks = field(default_factory=list)
+    def __init__(
+        self,
+        task: dict[str, Any],
+        known: Sequence[Structure],
+        circle: tuple[Point, float] | None,
+        pen: Pen,
+        face: Face | None,
+    ) -> None:
+        self.task, self.known, self.circle, self.pen, self.face = task, known, circle, pen, face
+        self.steps: list[Step] = []
+        self.marks: Marks = []
 
     def cleared(self, allowed: Allowed) -> dict[str, Any]:
         self.pen.begin(self.task)
