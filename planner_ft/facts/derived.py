@@ -128,6 +128,13 @@ class Ground:
             found.append((*middle, abs(one[0] - other[0]), abs(one[1] - other[1])))
         return [area for area in dict.fromkeys(found) if area[2] and area[3]]
 
+    @property
+    def sides(self) -> list[float]:
+        """Widths and lengths in metres of the areas between two places."""
+        pairs = itertools.combinations(self.centres, 2)
+        sides = (abs(one[axis] - other[axis]) for one, other in pairs for axis in (0, 1))
+        return sorted(set(filter(None, sides)))
+
     def spacings(self, width: float, length: float) -> tuple[float, ...]:
         """Distances between the lanes of an area."""
         if self.spacing:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import itertools
 import json
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
@@ -19,6 +20,10 @@ from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 MOST_LENGTHS, MOST_PLACES = 9, 12
 """Stated lengths and places up to which waypoints are derived."""
+MOST_WORKED = 2000
+"""Places that are worked out from those of a command."""
+SIDES = ("width", "length")
+"""Parameters that an area between two places has."""
 _UNREAD_SHAPES = re.compile(rf"\b(?:{'|'.join(WORDS['unread_shapes'])})s?\b", re.IGNORECASE)
 
 
@@ -70,7 +75,7 @@ class Input:
         if parameter.type == "position":
             ground = self.ground if place else None
             away = (ground.is_way_off(_point(value), at) for at in ground.places) if ground else ()
-            follows = any(away)
+            follows = place and (any(away) or self._is_worked_out(_point(value)))
         else:
             follows = is_number(value) and any(near(value, one) for one in self.values(parameter))
         return Evidence("derived") if follows else found
@@ -78,13 +83,18 @@ class Input:
     @functools.cached_property
     def ground(self) -> derived.Ground | None:
         """What waypoints are derived from; None where the text cannot be read with certainty."""
+        return None if self.facts.loose else self._known
+
+    @functools.cached_property
+    def _known(self) -> derived.Ground | None:
+        """The same, also where a coordinate may have no partner: "200 m north"."""
         facts, home = self.facts, _point(self.vocabulary.home)
         lengths = {number.value for number in facts.numbers("m") if number.value > 0}
         lengths |= {value for value in self._own("m") if value > 0}
         lengths |= {length * factor for length in set(lengths) for factor in self._factors}
         stated = (_point((place.x, place.y)) for place in facts.positions)
         places = dict.fromkeys((*self._places, *stated, home))
-        unread = facts.unread or facts.loose or _UNREAD_SHAPES.search(facts.text)
+        unread = facts.unread or _UNREAD_SHAPES.search(facts.text)
         if unread or len(lengths) > MOST_LENGTHS or len(places) > MOST_PLACES:
             return None
         angles = (*facts.bearings, *facts.numbers("deg"))
@@ -107,6 +117,22 @@ class Input:
             "corner" in facts.text.lower(),
             spacing if sizes else None,
         )
+
+    @functools.cached_property
+    def worked_places(self) -> tuple[Point, ...]:
+        """Places in metres that follow from those of a mission's command, at most MOST_WORKED: one
+        or two stated ways off them, and the middles of areas between two of them or at a corner.
+        """
+        known = self._known
+        if self.is_task or not known:
+            return ()
+        off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))
+        middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
+        found = itertools.chain(off, middles, known.away(off))
+        return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
+
+    def _is_worked_out(self, point: Point) -> bool:
+        return any(math.dist(point, place) <= derived.CLOSE for place in self.worked_places)
 
     def _place(self, value: Any, tolerance: float, before: Iterable[Point] | None) -> Evidence:
         """Where a waypoint behind those `before` is from; None for a corner of an area."""
@@ -149,6 +175,8 @@ class Input:
             items = filter(is_number, value if isinstance(value, list) else [value])
             given = (item if base is None else converted(item, own_unit, unit) for item in items)
             found += [item for item in given if item is not None]
+        if parameter.name in SIDES and base == "m" and not self.is_task and self.ground:
+            found += self.ground.sides
         if base in ("s", "m"):
             found += [value * factor for factor in self._factors for value in found]
         if named(unit) == UNITS["deg"]:

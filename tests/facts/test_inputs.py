@@ -296,3 +296,29 @@ def test_tolerance_holds_for_the_task_s_own_values_too() -> None:
     grid = read_input({"prompt": "Run it.", **PERIMETER}, USV)
     assert grid.evidence([10.2, 20.3], WAYPOINT).kind == "nobody"
     assert grid.evidence([10.2, 20.3], WAYPOINT, SCORING).kind == "stated"
+
+
+@pytest.mark.parametrize(
+    ("command", "place", "follows"),
+    [
+        ("Depth grid from [20, 20] to [120, 80].", [70, 50], True),
+        ("Depth grid from [20, 20] to [120, 80].", [70, 60], False),
+        ("Grid of 40 m by 20 m, its south-west corner at [10, 10].", [30, 20], True),
+        ("From [40, 10] 200 m north, then 80 m east.", [40, 210], True),
+        ("From [40, 10] 200 m north, then 80 m east.", [120, 210], True),
+        ("From [40, 10] 200 m north, then 80 m east.", [40, 190], False),
+    ],
+)
+def test_places_of_a_mission_follow_from_those_that_it_says(
+    command: str, place: list[float], follows: bool
+) -> None:
+    position = USV.task["Transit"].by_name["target_position"]
+    found = read_input({"prompt": command}, USV).evidence(place, position)
+    assert (found.kind == "derived") is follows
+
+
+def test_sides_of_an_area_follow_from_its_corners() -> None:
+    survey = USV.task["BathymetryGridSurvey"].by_name
+    source = read_input({"prompt": "Depth grid from [20, 20] to [120, 80]."}, USV)
+    assert {100, 60} <= set(source.values(survey["width"]))
+    assert not {100, 60} & set(source.values(survey["spacing"]))

@@ -163,7 +163,7 @@ def _written_gaps(gap: str, before: str) -> list[str]:
 
 LONGEST_NUMBER = 16
 """Digits of a number in a sentence: an identity at sea has nine."""
-MOST_OFFSETS, MOST_CROSSED = 2000, 8
+MOST_CROSSED = 8
 LARGEST = 10**patterns.WHOLE_DIGITS
 REPORTS = dict(zip(STEP_KEYS[3:], ("stop", "failure", "output"), strict=True))
 """Fields of a skill with the wording of a step's reports."""
@@ -194,9 +194,8 @@ class GroundedValues(Values):
         stated = [(round(place.x, 2), round(place.y, 2)) for place in facts.positions]
         stated = [place for place in stated if max(map(abs, place)) < LARGEST]
         self._places = list(dict.fromkeys([vocabulary.home, vocabulary.unresolved, *stated]))
-        if level == "mission" and source.ground:
-            away = source.ground.away((vocabulary.home, *stated))
-            self._places += itertools.islice(away, MOST_OFFSETS)
+        worked = ((round(x, 2), round(y, 2)) for x, y in source.worked_places)
+        self._places += [place for place in worked if max(map(abs, place)) < LARGEST]
         too_long = [TOO_LONG] if self._spans.too_long else []
         self.notes = [*facts.unread, *([UNPAIRED] if facts.loose else []), *too_long]
 

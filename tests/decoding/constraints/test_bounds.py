@@ -57,7 +57,7 @@ def sequence(*steps: dict[str, Any]) -> str:
 
 
 def test_what_constrains_an_answer_cannot_be_changed() -> None:
-    names = ("factory", "grammar", "state", "steps", "tokens", "waypoints")
+    names = ("factory", "grammar", "scripts", "tokens", "waypoints")
     assert changeable(*(f"planner_ft.decoding.constraints.{name}" for name in names)) == []
 
 

@@ -19,6 +19,7 @@ from planner_ft.review.web.planning import Planning, sentence
 from planner_ft.review.web.server import _PromptProtocol
 from planner_ft.review.web.session import Session, WebSettings
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.plans import is_position
 from tests.review.web.conftest import PORT, REMOVE, Serve, post, state
 
 DOOR = Door("127.0.0.1", PORT, Keys("k" * 43, None))
@@ -124,7 +125,7 @@ def test_which_names_a_server_answers_to(of: str, host: str, *, known: bool) -> 
     ],
 )
 def test_a_position_has_two_finite_numbers(value: Any, *, fits: bool) -> None:
-    assert app._is_position(value) is fits
+    assert is_position(value) is fits
     assert app.FIELDS["Locations"][0]({"a": [0, 0], "b": value}) is fits
 
 
