@@ -7,6 +7,7 @@ key keeps out the other users of the machine.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import ipaddress
 import secrets
@@ -20,6 +21,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 LARGEST_BODY = 256 * 1024
 """Bytes of a request's body at most."""
 TOO_LARGE = f"The request is larger than {LARGEST_BODY // 1024} kB; send less."
+PATIENCE_S = 1.0
+"""How long the body of a refused request is waited for."""
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src"
@@ -127,7 +130,19 @@ class Guard:
         answer: ASGIApp = self.app
         if refused := refusal(request := Request(scope), self.door):
             answer = _refused(*refused, is_api=_is_api(request))
+            if request.method == "POST" and refused != (413, TOO_LARGE):
+                await _read_on(receive)
         await answer(scope, receive, with_headers)
+
+
+async def _read_on(receive: Receive) -> None:
+    """Read the body of a refused request: the end of a connection with unread bytes is a reset, by
+    which the answer can be lost.
+    """
+    with contextlib.suppress(TimeoutError):
+        async with asyncio.timeout(PATIENCE_S):
+            while (await receive()).get("more_body"):
+                pass
 
 
 def refusal(request: Request, door: Door) -> tuple[int, str] | None:

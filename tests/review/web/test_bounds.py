@@ -419,3 +419,29 @@ def test_a_look_at_the_disk_is_a_second_after_the_last(
         asyncio.run(app._look(own))
     assert waited == [1, 1, 1] and looks == [1, 1]
     assert (guard.LARGEST_BODY, session.LONGEST_COMMAND) == (262144, 20000)
+
+
+@pytest.mark.parametrize(("length", "read"), [("2", 3), (str(guard.LARGEST_BODY + 1), 0)])
+def test_a_refused_request_is_read_to_its_end_before_the_answer(length: str, read: int) -> None:
+    """Else the connection ends with a reset, and the answer is lost; what is too large is left."""
+    told: list[str] = []
+
+    async def receive() -> dict[str, Any]:
+        told.append("read")
+        return {"type": "http.request", "body": b"{", "more_body": told.count("read") < 3}
+
+    async def send(message: Any) -> None:
+        told.append(message["type"])
+
+    given = SENT | {"content-length": length, **({"content-type": "text/plain"} if read else {})}
+    scope = {
+        "type": "http",
+        "method": "POST",
+        "path": "/api/edit",
+        "headers": [(key.encode(), value.encode()) for key, value in given.items()],
+        "query_string": b"",
+        "server": ("127.0.0.1", PORT),
+        "scheme": "http",
+    }
+    asyncio.run(guard.Guard(None, DOOR)(scope, receive, send))
+    assert told == ["read"] * read + ["http.response.start", "http.response.body"]
