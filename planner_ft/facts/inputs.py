@@ -83,10 +83,10 @@ class Input:
     @functools.cached_property
     def ground(self) -> derived.Ground | None:
         """What waypoints are derived from; None where the text cannot be read with certainty."""
-        return None if self.facts.loose else self._known
+        return None if self.facts.loose else self._loose_ground
 
     @functools.cached_property
-    def _known(self) -> derived.Ground | None:
+    def _loose_ground(self) -> derived.Ground | None:
         """The same, also where a coordinate may have no partner: "200 m north"."""
         facts, home = self.facts, _point(self.vocabulary.home)
         lengths = {number.value for number in facts.numbers("m") if number.value > 0}
@@ -123,7 +123,7 @@ class Input:
         """Places in metres that follow from those of a mission's command, at most MOST_WORKED: one
         or two stated ways off them, and the middles of areas between two of them or at a corner.
         """
-        known = self._known
+        known = self._loose_ground
         if self.is_task or not known:
             return ()
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))

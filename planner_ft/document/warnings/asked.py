@@ -194,7 +194,10 @@ def conditions(case: Case) -> Iterator[Warning]:
         # "weather permitting" has its words before.
         text = clause.text[match.start() :] if behind else clause.text
         said = re.findall(r"[a-z]{4,}", (behind or clause.text[: match.start()]).casefold())
-        if said and not any(word[:STEM] in texts for word in said):
+        # What the command also says elsewhere, "the wind turbine", tells nothing of "if the wind".
+        others = case.command.replace(text, " ").casefold()
+        own = [word for word in said if word[:STEM] not in others] or said
+        if own and not any(word[:STEM] in texts for word in own):
             words = quoted(text.strip(" ,;."))
             yield warning("condition-lost", words=words, about=words.casefold())
 

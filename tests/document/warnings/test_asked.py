@@ -203,6 +203,11 @@ def test_data_that_are_ruled_out_are_told_with_the_skills_that_gather_them() -> 
         ("Go to [30, 40] if all is green.", [], "if all is green"),
         ("Weather permitting, go to [30, 40].", [], "Weather permitting"),
         ("If the battery is above half, go to [30, 40].", [], "If the battery is above half"),
+        (
+            "Go to the wind turbine if the wind drops.",
+            ["The wind turbine is big."],
+            "if the wind drops",
+        ),
         ("Unless the ferry is in, go to [30, 40].", ["Only while the ferry is out."], None),
         ("Go to [30, 40] if the swell is low.", ["Only if the swell is low."], None),
         ("Go to [30, 40], if I remember right.", [], None),
