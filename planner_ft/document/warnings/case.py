@@ -13,6 +13,7 @@ from planner_ft.document.language import Clause, language, read_clauses
 from planner_ft.document.track import Track
 from planner_ft.document.warnings.kinds import Warning
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
+from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_numbers, rows_of_sizes
 from planner_ft.facts.places import read_positions, without_geographic
 from planner_ft.facts.rows import positions_of, rows_of
@@ -139,6 +140,8 @@ class PlanValues:
         texts += [task["task_prompt"] for task in tasks]
         read = [(place.x, place.y) for line in texts for place in read_positions(line)]
         corners = [tuple(corner) for polygon in self.polygons for corner in polygon]
+        # A command that gives an area by its corners says these.
+        corners += [corner for task in tasks for corner in _area_corners(task["parameters"])]
         self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
         spoken = [number for line in texts for number in read_numbers(line)]
         self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
@@ -205,6 +208,16 @@ def _flat(value: Any) -> Iterator[float]:
     elif isinstance(value, list):
         for item in value:
             yield from _flat(item)
+
+
+def _area_corners(values: Mapping[str, Any]) -> list[tuple[float, float]]:
+    """The corners of the area of a task that has sides and a middle."""
+    middle = next(filter(is_place, values.values()), None)
+    sides = [float(values[name]) for name in SIDES if is_number(values.get(name))]
+    if middle is None or len(sides) < len(SIDES):
+        return []
+    ways = itertools.product((-0.5, 0.5), repeat=2)
+    return [(middle[0] + east * sides[0], middle[1] + north * sides[1]) for east, north in ways]
 
 
 def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:

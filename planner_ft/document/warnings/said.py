@@ -58,6 +58,7 @@ def measures(case: Case) -> Iterator[Warning]:
     if case.source.facts.unread:
         return
     text, instead = case.text, _instead(case)
+    joined = functools.cache(functools.partial(neighbours, case.numbers))
     apart = {size.start for row in rows_of_sizes(text) for size in case.plan.missing_sizes(row)}
     for number, following in itertools.zip_longest(case.numbers, case.numbers[1:]):
         if not _is_measure(text, number) or not case.wants(number.start):
@@ -66,7 +67,7 @@ def measures(case: Case) -> Iterator[Warning]:
         replaced = case.words["correction"].search(between) or NO.fullmatch(between)
         if replaced and len(between) <= CORRECTED:
             continue
-        wholes = [*neighbours(case.numbers, number.unit), number]
+        wholes = [*joined(number.unit), number]
         wholes = [one for one in wholes if one.start <= number.start and number.end <= one.end]
         if number.start not in apart and any(case.plan.says(one.value) for one in wholes):
             continue

@@ -64,11 +64,13 @@ def unheard(case: Case) -> Iterator[Warning]:
     the task: they may name another thing.
     """
     proposed = {own["id"]: own for own in case.document.get("proposed", {"tasks": ()})["tasks"]}
+    command, spoken = case.command.casefold(), words(case.command)
     for task in (one for one in case.tasks if one["id"] in proposed):
-        told = f"{case.command} {case.vocabulary.task[task['title']].description}".casefold()
         unknown = dict.fromkeys(unknown_words(proposed[task["id"]]["task_prompt"])[0])
-        said, prompt = words(told), task["task_prompt"].casefold()
-        made = [word for word in unknown if word in prompt and not _is_heard(word, told, said)]
+        purpose, prompt = case.vocabulary.task[task["title"]].description, task["task_prompt"]
+        told, said = f"{command} {purpose.casefold()}", [*spoken, *words(purpose)]
+        new = (word for word in unknown if word in prompt.casefold())
+        made = [word for word in new if not _is_heard(word, told, said)]
         if made:
             listed = ", ".join(f'"{word}"' for word in made)
             yield warning("value-not-said", "word", task, about=" ".join(made), words=listed)

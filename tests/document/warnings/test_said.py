@@ -299,3 +299,27 @@ def test_a_row_is_done_everywhere_or_told() -> None:
     assert lost(row, to(1, 9), *at(2), *at(3)) == ["value-lost:[1, 9]"]
     look = task("FeatureStare", {"target_feature": "board"}, [step("VisualStationKeep")])
     assert lost(row, *at(1), to(2, 9), look, to(3, 9)) == []
+
+
+AREA = {"center": [70, 50], "width": 100, "length": 60, "spacing": 10}
+
+
+@pytest.mark.parametrize(
+    ("command", "planned", "lost"),
+    [
+        ("Depth grid from [20, 20] to [120, 80], lines 10 m apart.", AREA, []),
+        (
+            "Depth grid from [20, 20] to [120, 80], lines 10 m apart.",
+            AREA | {"width": 90},
+            ["20", "120"],
+        ),
+    ],
+)
+def test_corners_of_the_area_that_is_planned_are_not_lost(
+    command: str, planned: dict[str, Any], lost: list[str]
+) -> None:
+    grid = task("BathymetryGridSurvey", planned, [], "Go on.")
+    plan = document([grid], command=command)
+    said = [one["text"] for one in plan["warnings"] if one["kind"] == "value-lost"]
+    assert len(said) == len(lost)
+    assert all(any(f'"{words}' in text for text in said) for words in lost)
