@@ -134,7 +134,18 @@ class Geographic:
 @functools.lru_cache(maxsize=2048)
 def read_geographic(text: str) -> tuple[Geographic, ...]:
     """The geographic positions of a text."""
-    found = [match for match in _COORDINATE.finditer(text) if _is_degrees(match)]
+    known = list(_COORDINATE.finditer(text))
+    sure = [match for match in known if _is_degrees(match)]
+    # "48.123N 7.5E": what stands beside degrees with a hemisphere of its own is degrees.
+    pairs = [(one, two) for one, two in itertools.pairwise(known) if {one, two} & {*sure}]
+    beside = {
+        match
+        for one, two in pairs
+        if _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
+        for match in (one, two)
+        if _has_letter(match)
+    }
+    found = [match for match in known if match in beside or match in sure]
     result, skip = list[Geographic](), False
     for one, two in itertools.zip_longest(found, found[1:]):
         paired = two is not None and _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
@@ -164,15 +175,19 @@ def lone_coordinates(text: str) -> list[tuple[int, int]]:
 
 def _is_degrees(match: re.Match[str]) -> bool:
     decimals = len((match["degrees"] or "").partition(".")[2])
-    letter = match["lead"] or match["hemisphere"]
     return bool(
         match["word"]
         or match["packed"]
         or match["minutes"]
-        or (match["ring"] and letter)
+        or (match["ring"] and (match["lead"] or match["hemisphere"]))
         or decimals >= DIGITS_OF_DEGREES
-        or (letter and len(letter.strip(" ,")) == 1 and decimals >= 2)
+        or (_has_letter(match) and decimals >= 2)
     )
+
+
+def _has_letter(match: re.Match[str]) -> bool:
+    """Whether a number has the letter of a hemisphere."""
+    return len((match["lead"] or match["hemisphere"] or "").strip(" ,")) == 1
 
 
 def _degrees(match: re.Match[str]) -> tuple[float, str]:
