@@ -72,6 +72,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (PLATFORM, [to(100, 0)], (AWAY,), None),
         (PLATFORM, [to(100, 0)], ("Take care near the platform at 70 m.",), "limit-lost"),
         ("Go to [9, 9] and be back within 20 minutes.", [to(9, 9), hold(1200)], (), "limit-lost"),
+        ("Go to [9, 9]; I want you done within 20 minutes.", [to(9, 9), hold(1200)], (), "limit-lost"),
         ("Hold here for at most 10 minutes.", [hold(600)], (), None),
         ("Stay away from the wreck at 9,9.", [to(9, 9)], (), "limit-lost"),
         ("Go to 100,20 and 140,60 and 20,90.", [to(100, 20), to(140, 60), to(20, 90)], (), None),
