@@ -163,7 +163,7 @@ class Drawing(Filling):
             if is_formula(slot):
                 value = worked_out(slot, self._worth) if operands(slot) <= self.said else None
             elif slot in self.targets:
-                value = self.targets[slot].description
+                value = self.targets[slot].identity or self.targets[slot].description
             elif slot in self.values and slot in self.said:
                 value = self.values[slot].value
             if value is not None and parameter.type == "texts":

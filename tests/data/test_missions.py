@@ -334,6 +334,11 @@ def test_look_alikes_share_their_noun_and_differ_in_their_look():
         assert " one of the " in text
 
 
+def test_an_id_may_be_named_by_its_parameter():
+    for text, tasks, _expected in draws("At {P1}, keep on {ID1}.", "FollowTarget target_id=ID1 P1"):
+        assert text.endswith(f"{tasks[0][1]['target_id']}.")
+
+
 def test_a_series_has_room_for_two_readings_and_its_values_differ():
     for _text, tasks, _expected in draws(
         "{T1}: every {interval} for {duration}.", "ThermalTimeLapse T1 interval duration"
