@@ -53,11 +53,12 @@ def measures(case: Case) -> Iterator[Warning]:
     """Measures and courses, but for those that are ruled out, taken back or only told of.
 
     One that a later clause replaces by a value that the plan has is taken back. Sizes that are said
-    together must be values of one task.
+    together must be values of one task. Those of limits that are lost are told by `limits`.
     """
     if case.source.facts.unread:
         return
     text, instead = case.text, _instead(case)
+    limiting = [clause for clause in case.clauses if _is_lost(clause, case)]
     joined = functools.cache(functools.partial(neighbours, case.numbers))
     apart = {size.start for row in rows_of_sizes(text) for size in case.plan.missing_sizes(row)}
     for number, following in itertools.zip_longest(case.numbers, case.numbers[1:]):
@@ -70,6 +71,8 @@ def measures(case: Case) -> Iterator[Warning]:
         wholes = [*joined(number.unit), number]
         wholes = [one for one in wholes if one.start <= number.start and number.end <= one.end]
         if number.start not in apart and any(case.plan.says(one.value) for one in wholes):
+            continue
+        if case.clause_at(number.start) in limiting:
             continue
         # A later number of the unit, or without one, stands for it.
         later = [one for one in instead if one.start > number.end]
@@ -149,14 +152,18 @@ def _is_measure(text: str, number: Number) -> bool:
 
 def limits(case: Case) -> Iterator[Warning]:
     """Clauses that limit with a number or a position that no limit and no task has."""
-    for clause in (one for one in case.clauses if not one.corrected):
-        in_row = any(clause.start <= row[0].start < clause.end for row in case.rows)
-        if in_row or not case.words["limit"].search(clause.text) or _is_kept(clause, case):
-            continue
+    for clause in filter(functools.partial(_is_lost, case=case), case.clauses):
         # A time of day goes on behind its colon.
         clock = re.compile(r":\d\d").match(case.text, clause.end)
         words = case.text[clause.start : clock.end() if clock else clause.end].strip(" ,;")
         yield warning("limit-lost", "limit", about=words.casefold(), words=quoted(words))
+
+
+def _is_lost(clause: Clause, case: Case) -> bool:
+    """Whether a clause limits, and no limit and no task of the plan has that."""
+    in_row = any(clause.start <= row[0].start < clause.end for row in case.rows)
+    limiting = not in_row and not clause.corrected and case.words["limit"].search(clause.text)
+    return bool(limiting) and not _is_kept(clause, case)
 
 
 def _is_kept(clause: Clause, case: Case) -> bool:
