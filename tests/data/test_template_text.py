@@ -68,6 +68,8 @@ def test_a_plan_has_steps_with_filters_perception_labels_and_texts():
     assert (arc.kind, arc.value, arc.negative) == ("param", "arc", True)
     assert second.each and second.each.call.name == "Hold"
     assert parse_plan("") == ()
+    named = parse_plan('"go.to" P1 &"night camera" note=x &snap')[0]
+    assert [call.name for call in named.perceptions] == ["night camera", "snap"]
 
 
 @pytest.mark.parametrize("plan", ["Go&", "GoToXY x=1.2.3", "Go@middle", "+Lock"])

@@ -258,7 +258,7 @@ def _step(words: list[str]) -> Step:
         words, each = words[:place], _step(words[place + 1 :])
     groups: list[list[str]] = [[]]
     for word in words:
-        if word[0] in "+&" and word[1:2].isupper():
+        if word[0] in "+&":
             groups.append([])
         groups[-1].append(word)
     filters, perceptions = (
