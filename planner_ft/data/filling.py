@@ -54,7 +54,8 @@ class Filling(Chosen):
         roll = rng.random()
         self.form = None if roll > 0.85 else WRITTEN[0] if roll < 0.3 else pick(WRITTEN, rng)
         super().__init__(template.nodes, rng)
-        self.lines = [line for line in bound.lines if not line.label or line.label in self.labels]
+        chosen = {"", *self.labels, *self.said}
+        self.lines = [line for line in bound.lines if line.label in chosen]
         self.corners = {other: (one, ways) for one, other, ways in opposite(template.plan)}
         self.winds = directions(template.plan)
         self.slots.sort(key=lambda slot: slot.base != "P")

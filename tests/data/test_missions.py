@@ -334,6 +334,13 @@ def test_look_alikes_share_their_noun_and_differ_in_their_look():
         assert " one of the " in text
 
 
+def test_a_label_may_be_a_slot_of_the_alternative():
+    for text, tasks, _expected in draws(
+        "Home(. Circle {T1} at {radius}|).", "Home; PerformOrbit?T1 T1 radius"
+    ):
+        assert ("PerformOrbit" in titles(tasks)) == ("ircle" in text)
+
+
 def test_an_id_may_be_named_by_its_parameter():
     for text, tasks, _expected in draws("At {P1}, keep on {ID1}.", "FollowTarget target_id=ID1 P1"):
         assert text.endswith(f"{tasks[0][1]['target_id']}.")
