@@ -163,8 +163,8 @@ _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
 _TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 _LISTS: dict[str, list[str]] = {k: v.split() for k, v in _TABLES.items() if isinstance(v, str)}
 _STAYING, _ACCENTS = frozenset(_LISTS["staying"]), dict[str, str](_TABLES["accents"])
-_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z][a-z]+")
-"""The words of a name such as CaptureGeoSnapshot."""
+_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[^\W\d_A-Z]+")
+"""The words of a name such as CaptureGeoSnapshot, follow-slick or lx.level."""
 _UNCLEAR = ("u", "eu", "one", "hon")
 """Beginnings after which the spelling does not tell "a" from "an"."""
 

@@ -1,6 +1,7 @@
 """Samples whose targets go by words that the generators do not have."""
 
 import json
+from dataclasses import replace
 from itertools import islice
 from random import Random
 from typing import Any
@@ -56,6 +57,18 @@ def test_a_word_is_replaced_wherever_it_stands_and_nothing_else_is() -> None:
                 "neither the plural nor a capital keeps the old word"
             )
     assert json.dumps(MISSION) == before, "the record itself is left alone"
+
+
+def test_words_of_titles_stay_however_these_are_written() -> None:
+    locate, hold = (VOCABULARY.task[one["title"]] for one in MISSION["expected"]["tasks"])
+    for title in ("find-trawler", "find_trawler", "sea.trawler", "Find Trawler"):
+        vehicle = replace(VOCABULARY, tasks=(replace(locate, title=title), hold))
+        tasks = [{**MISSION["expected"]["tasks"][0], "title": title}]
+        mission = {**MISSION, "expected": {**MISSION["expected"], "tasks": tasks}}
+        for seed in range(8):
+            record = with_unfamiliar_words(mission, vehicle, Random(seed), own=True)
+            assert record and record["expected"]["tasks"][0]["title"] == title
+            assert "Hilda" not in json.dumps(record)
 
 
 def test_what_names_no_thing_has_nothing_to_replace() -> None:
