@@ -18,31 +18,8 @@ from planner_ft.vocabulary import Task, Vocabulary
 
 KEPT, DESCRIBED = 0.2, 0.65
 """Share of the names that stay, and of all that stay or are made of words of the description."""
-SMALL = frozenset(
-    [
-        "a",
-        "an",
-        "and",
-        "at",
-        "by",
-        "for",
-        "in",
-        "into",
-        "is",
-        "it",
-        "its",
-        "of",
-        "off",
-        "on",
-        "or",
-        "that",
-        "the",
-        "to",
-        "up",
-        "what",
-        "with",
-    ]
-)
+SMALL = "a an and at by for in into is it its of off on or that the to up what with"
+"""Words that no name is made of."""
 STYLES: tuple[Callable[[Sequence[str]], str], ...] = (
     lambda words: "".join(word.capitalize() for word in words),
     lambda words: "".join(word.capitalize() for word in words),
@@ -142,7 +119,7 @@ def _names(described: Sequence[tuple[str, str]], rng: Random) -> dict[str, str]:
 
 def _words(description: str, rng: Random) -> list[str]:
     """One to three words of a description, or others that have nothing to do with it."""
-    own = [word for word in re.findall("[a-z]{3,}", description.lower()) if word not in SMALL]
+    own = [word for word in re.findall("[a-z]{3,}", description.lower()) if word not in SMALL.split()]
     count = rng.choice((1, 2, 2, 3))
     if own and rng.random() < DESCRIBED:
         places = sorted(rng.sample(range(len(own)), min(count, len(own))))
