@@ -119,7 +119,8 @@ def _names(described: Sequence[tuple[str, str]], rng: Random) -> dict[str, str]:
 
 def _words(description: str, rng: Random) -> list[str]:
     """One to three words of a description, or others that have nothing to do with it."""
-    own = [word for word in re.findall("[a-z]{3,}", description.lower()) if word not in SMALL.split()]
+    said, small = re.findall("[a-z]{3,}", description.lower()), SMALL.split()
+    own = [word for word in said if word not in small]
     count = rng.choice((1, 2, 2, 3))
     if own and rng.random() < DESCRIBED:
         places = sorted(rng.sample(range(len(own)), min(count, len(own))))
