@@ -60,7 +60,7 @@ CHECKS: tuple[Check, ...] = (
     *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     route.performed,
-    *(said.measures, said.bare_numbers, said.clock_times),
+    *(said.measures, said.corrected, said.bare_numbers, said.clock_times),
     *(said.rows, said.uneven_rows, said.unvisited),
     *(said.positions, said.limits, said.repeats, said.there_and_not, said.misnamed),
     *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),

@@ -58,6 +58,7 @@ def measures(case: Case) -> Iterator[Warning]:
     if case.source.facts.unread:
         return
     text, instead = case.text, _instead(case)
+    measured = [one for one in case.numbers if _is_measure(text, one)]
     limiting = [clause for clause in case.clauses if _is_lost(clause, case)]
     joined = functools.cache(functools.partial(neighbours, case.numbers))
     apart = {size.start for row in rows_of_sizes(text) for size in case.plan.missing_sizes(row)}
@@ -74,13 +75,30 @@ def measures(case: Case) -> Iterator[Warning]:
             continue
         if case.clause_at(number.start) in limiting:
             continue
-        # A later number of the unit, or without one, stands for it.
+        # A later number of the unit stands for it, or one without that comes right behind it.
         later = [one for one in instead if one.start > number.end]
+        after = next((one.start for one in measured if one.start > number.end), len(text))
+        later = [one for one in later if one.unit or one.start <= after]
         other = next((one for one in later if one.unit in (None, number.unit)), None)
         if other is None:
             yield lost(text[wholes[0].start : wholes[0].end])
         else:
             instead.remove(other)
+
+
+def corrected(case: Case) -> Iterator[Warning]:
+    """Measures that a correction took the place of, where it is of the one right before it: "on
+    heading 090 for 200 m, I meant 300" is no heading of 300.
+    """
+    for clause, behind in itertools.pairwise(case.clauses):
+        own = [n for n in case.numbers if clause.start <= n.start < clause.end]
+        own = [one for one in own if _is_measure(case.text, one)] if clause.corrected else []
+        instead = [one for one in case.numbers if behind.start <= one.start < behind.end]
+        if len(own) > 1 and len(instead) == 1 and instead[0].unit is None:
+            stays = case.plan.says(own[-1].value) and case.plan.says(instead[0].value)
+            for number in own[:-1] if stays else ():
+                if not case.plan.says(number.value):
+                    yield lost(case.text[number.start : number.end])
 
 
 def clock_times(case: Case) -> Iterator[Warning]:

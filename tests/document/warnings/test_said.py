@@ -72,7 +72,12 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (PLATFORM, [to(100, 0)], (AWAY,), None),
         (PLATFORM, [to(100, 0)], ("Take care near the platform at 70 m.",), "limit-lost"),
         ("Go to [9, 9] and be back within 20 minutes.", [to(9, 9), hold(1200)], (), "limit-lost"),
-        ("Go to [9, 9]; I want you done within 20 minutes.", [to(9, 9), hold(1200)], (), "limit-lost"),
+        (
+            "Go to [9, 9]; I want you done within 20 minutes.",
+            [to(9, 9), hold(1200)],
+            (),
+            "limit-lost",
+        ),
         ("Hold here for at most 10 minutes.", [hold(600)], (), None),
         ("Stay away from the wreck at 9,9.", [to(9, 9)], (), "limit-lost"),
         ("Go to 100,20 and 140,60 and 20,90.", [to(100, 20), to(140, 60), to(20, 90)], (), None),
@@ -194,8 +199,11 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         (
             "Hold 5 m. Circle it at 9 m, come home by the north side. Actually 20 will do.",
             [orbit(360), to(0, 0)],
-            ["9 m"],
+            ["5 m"],
         ),
+        ("Circle it on heading 095 at 20 m, I meant to say 360.", [orbit(360)], ["095"]),
+        ("Circle it on heading 095 at 22 m, I meant to say 360.", [orbit(360)], []),
+        ("Circle it at 20 m, I meant to say 360.", [orbit(360)], []),
         (
             "Circle it at 9 m, come home by the north side. Actually 360 degrees will do.",
             [orbit(360), to(0, 0)],
