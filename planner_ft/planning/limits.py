@@ -56,7 +56,7 @@ def with_limits(
         whole = (_whole(text, rows, limits, write) for text in texts)
         return list(_kept(whole, command, limits, write))
 
-    constraints = kept(plan.get("constraints", ()), sentence)
+    constraints = list(dict.fromkeys(kept(plan.get("constraints", ()), sentence)))
     prompts = [kept(SENTENCE.split(task["task_prompt"]), prompt_sentence) for task in plan["tasks"]]
     stated = limits_in(constraints, limits)
     for limit in limits_in([text for texts in prompts for text in texts], limits):
@@ -66,12 +66,14 @@ def with_limits(
     tasks = []
     for task, texts in zip(plan["tasks"], prompts, strict=True):
         own = limits_in(texts, limits)
-        added = [
+        lacking = (one for one in stated if one not in own)
+        added = dict.fromkeys(
             prompt_sentence(limit.kind, limit.values, limits)
-            for limit in stated
-            if limit not in own and holds_for(limit, task["title"], plan["tasks"])
-        ]
-        tasks.append({**task, "task_prompt": " ".join([*texts, *added]) or task["task_prompt"]})
+            for limit in lacking
+            if holds_for(limit, task["title"], plan["tasks"])
+        )
+        told = [*texts, *(text for text in added if text not in texts)]
+        tasks.append({**task, "task_prompt": " ".join(told) or task["task_prompt"]})
     return {**plan, "tasks": tasks, "constraints": constraints}
 
 

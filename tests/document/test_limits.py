@@ -174,6 +174,13 @@ def test_what_cannot_be_checked_is_said() -> None:
     assert [bool(limit["unchecked"]) for limit in plan["limits"]] == [True, True]
 
 
+def test_a_limit_that_stands_twice_is_told_once() -> None:
+    text = "The vehicle stays at least 8 m from the cages."
+    plan = with_limits({"tasks": [task("Diagnostics", {}, [])], "constraints": [text, text]}, USV)
+    assert plan["constraints"] == [text]
+    assert plan["tasks"][0]["task_prompt"].count("8 m") == 1
+
+
 def test_limits_reach_all_task_prompts_and_not_the_task_agent() -> None:
     own = {"title": "Transit", "parameters": {}, "task_prompt": "Go to [1, 2]."}
     told = {**own, "task_prompt": "Go to [3, 4]. Stay within 90 m of home."}
