@@ -13,6 +13,7 @@ from typing import Any
 from planner_ft.facts import derived, reading
 from planner_ft.facts.geometry import Point
 from planner_ft.facts.lists import MULTIPLES, UNITS, WORDS
+from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
 from planner_ft.facts.units import base_of, converted, named
 from planner_ft.facts.words import missing_words, normalised, words
@@ -122,6 +123,7 @@ class Input:
     def worked_places(self) -> tuple[Point, ...]:
         """Places in metres that follow from those of a mission's command, at most MOST_WORKED: one
         or two stated ways off them, and the middles of areas between two of them or at a corner.
+        None is farther off than a place and two ways can be: "0 and 100,200" is no 100200.
         """
         known = self._loose_ground
         if self.is_task or not known:
@@ -129,7 +131,9 @@ class Input:
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
         found = itertools.chain(off, middles, known.away(off))
-        return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
+        most = 3 * max((abs(one.value) for one in read_numbers(self.facts.text)), default=0.0)
+        near_enough = (place for place in found if max(map(abs, place)) <= most)
+        return tuple(itertools.islice(dict.fromkeys(near_enough), MOST_WORKED))
 
     def _is_worked_out(self, point: Point) -> bool:
         return any(math.dist(point, place) <= derived.CLOSE for place in self.worked_places)

@@ -322,3 +322,12 @@ def test_sides_of_an_area_follow_from_its_corners() -> None:
     source = read_input({"prompt": "Depth grid from [20, 20] to [120, 80]."}, USV)
     assert {100, 60} <= set(source.values(survey["width"]))
     assert not {100, 60} & set(source.values(survey["spacing"]))
+
+
+def test_places_that_are_worked_out_lie_as_far_off_as_the_numbers_reach() -> None:
+    said = "Patrol between 100,0 and 100,200 three times."
+    worked = read_input({"prompt": said}, USV).worked_places
+    assert worked
+    assert max(abs(part) for place in worked for part in place) <= 600
+    far = read_input({"prompt": "Go to 40,0, then 1,200 m north."}, USV).worked_places
+    assert (40, 1200) in far
