@@ -8,6 +8,7 @@ import json
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from planner_ft.facts import derived, reading
@@ -15,12 +16,14 @@ from planner_ft.facts.geometry import Point
 from planner_ft.facts.lists import MULTIPLES, UNITS, WORDS
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
+from planner_ft.facts.together import Number
 from planner_ft.facts.units import base_of, converted, named
 from planner_ft.facts.words import missing_words, normalised, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 MOST_LENGTHS, MOST_PLACES = 9, 12
 """Stated lengths and places up to which waypoints are derived."""
+_COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
 MOST_WORKED = 2000
 """Places that are worked out from those of a command."""
 SIDES = ("width", "length")
@@ -128,10 +131,18 @@ class Input:
         known = self._loose_ground
         if self.is_task or not known:
             return ()
+        text, plain = self.facts.text, read_numbers(self.facts.text)
+        said = {one.value for one in plain if one.unit in ("m", None)}
+        courses = (*self.facts.bearings, *(one for one in plain if _is_course(text, one)))
+        known = replace(
+            known,
+            lengths=tuple(length for length in known.lengths if length in said),
+            bearings=tuple(sorted({one.value % 360 for one in courses})),
+        )
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
         found = itertools.chain(off, middles, known.away(off))
-        most = 3 * max((abs(one.value) for one in read_numbers(self.facts.text)), default=0.0)
+        most = 3 * max(map(abs, said), default=0.0)
         near_enough = (place for place in found if max(map(abs, place)) <= most)
         return tuple(itertools.islice(dict.fromkeys(near_enough), MOST_WORKED))
 
@@ -235,3 +246,12 @@ def _read_input(text: str, vocabulary: Vocabulary) -> Input:
 
 def _point(place: Sequence[float]) -> Point:
     return float(place[0]), float(place[1])
+
+
+def _is_course(text: str, number: Number) -> bool:
+    """Whether a number is said as a direction: in degrees, as "045", or behind "heading"."""
+    bare = number.unit is None and (
+        _COURSE.search(text[: number.start])
+        or re.fullmatch(r"0\d\d", text[number.start : number.end])
+    )
+    return number.unit == "deg" or bool(bare)

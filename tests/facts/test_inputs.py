@@ -331,3 +331,21 @@ def test_places_that_are_worked_out_lie_as_far_off_as_the_numbers_reach() -> Non
     assert max(abs(part) for place in worked for part in place) <= 600
     far = read_input({"prompt": "Go to 40,0, then 1,200 m north."}, USV).worked_places
     assert (40, 1200) in far
+
+
+@pytest.mark.parametrize(
+    ("said", "place", "derived"),
+    [
+        ("Go to 40,188, then 16 m on heading 095.", (55.94, 186.61), True),
+        ("Go to 40,188, then 16 m at 095.", (55.94, 186.61), True),
+        ("Go to 40,188, then 16 m on 95 degrees.", (55.94, 186.61), True),
+        ("Go to 40,188, then 16 m north.", (40, 204), True),
+        ("Go to 40,188, 16 m off, for 95 seconds.", (55.94, 186.61), False),
+        ("Go to 40,188, 16 m off, 95 times.", (55.94, 186.61), False),
+    ],
+)
+def test_places_are_worked_out_along_directions_that_are_said(
+    said: str, place: tuple[float, float], derived: bool
+) -> None:
+    worked = read_input({"prompt": said}, USV).worked_places
+    assert (place in {(round(x, 2), round(y, 2)) for x, y in worked}) == derived
