@@ -15,6 +15,7 @@ from planner_ft.facts import derived, reading
 from planner_ft.facts.geometry import Point
 from planner_ft.facts.lists import MULTIPLES, UNITS, WORDS
 from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import Position, read_positions
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
 from planner_ft.facts.together import Number
 from planner_ft.facts.units import base_of, converted, named
@@ -134,8 +135,12 @@ class Input:
         text, plain = self.facts.text, read_numbers(self.facts.text)
         said = {one.value for one in plain if one.unit in ("m", None)}
         courses = (*self.facts.bearings, *(one for one in plain if _is_course(text, one)))
+        alone = {_point((place.x, place.y)) for place in _apart(read_positions(text))}
+        alone |= {*self._places, _point(self.vocabulary.home)}
         known = replace(
             known,
+            places=tuple(place for place in known.places if place in alone),
+            centres=tuple(place for place in known.centres if place in alone),
             lengths=tuple(length for length in known.lengths if length in said),
             bearings=tuple(sorted({one.value % 360 for one in courses})),
         )
@@ -255,3 +260,13 @@ def _is_course(text: str, number: Number) -> bool:
         or re.fullmatch(r"0\d\d", text[number.start : number.end])
     )
     return number.unit == "deg" or bool(bare)
+
+
+def _apart(places: Sequence[Position]) -> list[Position]:
+    """The positions without those that share a number with another one: the certain ones stand."""
+    kept: list[Position] = []
+    for place in sorted(places, key=lambda one: (not one.certain, one.start)):
+        same = (one for one in kept if one.start < place.end and place.start < one.end)
+        if all((one.start, one.end) == (place.start, place.end) for one in same):
+            kept.append(place)
+    return kept
