@@ -133,9 +133,11 @@ class Input:
         if self.is_task or not known:
             return ()
         text, plain = self.facts.text, read_numbers(self.facts.text)
-        said = {one.value for one in plain if one.unit in ("m", None)}
+        apart = _apart(read_positions(text))
+        inside = [one for one in plain if any(at.start <= one.start < at.end for at in apart)]
+        said = {one.value for one in plain if one.unit in ("m", None) and one not in inside}
         courses = (*self.facts.bearings, *(one for one in plain if _is_course(text, one)))
-        alone = {_point((place.x, place.y)) for place in _apart(read_positions(text))}
+        alone = {_point((place.x, place.y)) for place in apart}
         alone |= {*self._places, _point(self.vocabulary.home)}
         known = replace(
             known,
@@ -147,7 +149,7 @@ class Input:
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
         found = itertools.chain(off, middles, known.away(off))
-        most = 3 * max(map(abs, said), default=0.0)
+        most = 3 * max((abs(one.value) for one in plain), default=0.0)
         near_enough = (place for place in found if max(map(abs, place)) <= most)
         return tuple(itertools.islice(dict.fromkeys(near_enough), MOST_WORKED))
 

@@ -344,6 +344,7 @@ def test_places_that_are_worked_out_lie_as_far_off_as_the_numbers_reach() -> Non
         ("Map between [-119, 85] and [10, 5].", (-54.5, 45), True),
         ("Go to 40,188, 16 m off, for 95 seconds.", (55.94, 186.61), False),
         ("Circle the wreck at -119,85 69 metres off.", (-17, 77), False),
+        ("Pass the north side of the cable at -103,57.", (-103, 114), False),
         ("Go to 40,188, 16 m off, 95 times.", (55.94, 186.61), False),
     ],
 )
