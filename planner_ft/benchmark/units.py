@@ -4,6 +4,7 @@ failure is named, and the time left is said. Suites and learning curves are list
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -43,8 +44,11 @@ class Unit:
         return self.before + self.weight * self.queries
 
     def written(self) -> int:
-        """Answers and timed queries that are there."""
-        paths = (path for name in LOGS for path in self.folder.rglob(name))
+        """Answers and timed queries that are there. Folders may go while it looks: trainings drop
+        their older checkpoints.
+        """
+        walked = ((folder, {*LOGS} & {*names}) for folder, _below, names in os.walk(self.folder))
+        paths = (Path(folder, name) for folder, names in walked for name in names)
         return sum(path.read_bytes().count(b"\n") for path in paths)
 
     def done(self) -> float:

@@ -307,3 +307,21 @@ def test_ctrl_c_in_a_training_keeps_its_steps(
     steps = [json.loads(line) for line in (log.parent / "adapter" / "train_log.jsonl").open()]
     assert sum("loss" in one for one in steps) == 16
     assert "One size" in (out / "table.md").read_text()
+
+
+def test_progress_is_counted_while_a_training_drops_its_checkpoints(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for below in ("bench", "checkpoints/step-10"):
+        (tmp_path / below).mkdir(parents=True)
+        (tmp_path / below / units.LOGS[0]).write_text("{}\n{}\n", "utf-8")
+    own = os.scandir
+
+    def gone(path: Any) -> Any:
+        if str(path).endswith("step-10"):
+            raise FileNotFoundError(path)
+        return own(path)
+
+    unit = units.Unit("2 commands", tmp_path, queries=3)
+    monkeypatch.setattr(os, "scandir", gone)
+    assert unit.written() == 2
