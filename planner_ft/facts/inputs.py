@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from planner_ft.facts import derived, reading
+from planner_ft.facts import derived, places, reading
 from planner_ft.facts.geometry import Point
 from planner_ft.facts.lists import MULTIPLES, UNITS, WORDS
 from planner_ft.facts.numbers import read_numbers
@@ -24,7 +24,6 @@ from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 MOST_LENGTHS, MOST_PLACES = 9, 12
 """Stated lengths and places up to which waypoints are derived."""
-_COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
 MOST_WORKED = 2000
 """Places that are worked out from those of a command."""
 SIDES = ("width", "length")
@@ -124,34 +123,44 @@ class Input:
         )
 
     @functools.cached_property
-    def worked_places(self) -> tuple[Point, ...]:
-        """Places in metres that follow from those of a mission's command, at most MOST_WORKED: one
-        or two stated ways off them, and the middles of areas between two of them or at a corner.
-        None is farther off than a place and two ways can be: "0 and 100,200" is no 100200.
+    def _plain_ground(self) -> derived.Ground | None:
+        """What places are derived from in the plain reading of the text: positions that share no
+        number, lengths that are no coordinates, directions that are said. "0 and 100,200" is no
+        100200.
         """
-        known = self._loose_ground
-        if self.is_task or not known:
-            return ()
-        text, plain = self.facts.text, read_numbers(self.facts.text)
+        known, text, plain = self._loose_ground, self.facts.text, read_numbers(self.facts.text)
+        if known is None:
+            return None
         apart = _apart(read_positions(text))
-        inside = [one for one in plain if any(at.start <= one.start < at.end for at in apart)]
-        said = {one.value for one in plain if one.unit in ("m", None) and one not in inside}
+        metres = [one for one in plain if one.unit in ("m", None)]
+        said = {one.value for one in metres}
+        bare = [one for one in metres if one.unit is None]
+        inside = {one for one in bare if any(at.start <= one.start < at.end for at in apart)}
+        ways = {one.value for one in metres if one not in inside}
         courses = (*self.facts.bearings, *(one for one in plain if _is_course(text, one)))
         alone = {_point((place.x, place.y)) for place in apart}
         alone |= {*self._places, _point(self.vocabulary.home)}
-        known = replace(
+        return replace(
             known,
             places=tuple(place for place in known.places if place in alone),
             centres=tuple(place for place in known.centres if place in alone),
-            lengths=tuple(length for length in known.lengths if length in said),
+            lengths=tuple(length for length in known.lengths if length in ways),
+            sizes=tuple(size for size in known.sizes if said >= {*size}),
             bearings=tuple(sorted({one.value % 360 for one in courses})),
         )
+
+    @functools.cached_property
+    def worked_places(self) -> tuple[Point, ...]:
+        """Places in metres that follow from those of a mission's command, at most MOST_WORKED: one
+        or two stated ways off them, and the middles of areas between two of them or at a corner.
+        """
+        known = None if self.is_task else self._plain_ground
+        if known is None:
+            return ()
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
         found = itertools.chain(off, middles, known.away(off))
-        most = 3 * max((abs(one.value) for one in plain), default=0.0)
-        near_enough = (place for place in found if max(map(abs, place)) <= most)
-        return tuple(itertools.islice(dict.fromkeys(near_enough), MOST_WORKED))
+        return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
 
     def _is_worked_out(self, point: Point) -> bool:
         return any(math.dist(point, place) <= derived.CLOSE for place in self.worked_places)
@@ -257,17 +266,16 @@ def _point(place: Sequence[float]) -> Point:
 
 def _is_course(text: str, number: Number) -> bool:
     """Whether a number is said as a direction: in degrees, as "045", or behind "heading"."""
-    bare = number.unit is None and (
-        _COURSE.search(text[: number.start])
-        or re.fullmatch(r"0\d\d", text[number.start : number.end])
-    )
-    return number.unit == "deg" or bool(bare)
+    if number.unit is not None:
+        return number.unit == "deg"
+    written = re.fullmatch(r"0\d\d", text[number.start : number.end])
+    return bool(written or places.is_course(text, number.start))
 
 
-def _apart(places: Sequence[Position]) -> list[Position]:
+def _apart(found: Sequence[Position]) -> list[Position]:
     """The positions without those that share a number with another one: the certain ones stand."""
     kept: list[Position] = []
-    for place in sorted(places, key=lambda one: (not one.certain, one.start)):
+    for place in sorted(found, key=lambda one: (not one.certain, one.start)):
         same = (one for one in kept if one.start < place.end and place.start < one.end)
         if all((one.start, one.end) == (place.start, place.end) for one in same):
             kept.append(place)

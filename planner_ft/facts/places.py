@@ -79,6 +79,7 @@ _AXIS_BEHIND = re.compile(
     r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))",
     re.IGNORECASE,
 )
+_COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
 _COURSES = {
     **{name.replace("-", ""): 22.5 * place for place, name in enumerate(COMPASS)},
     **{name.lower(): 22.5 * place for place, name in enumerate(SHORT)},
@@ -300,6 +301,11 @@ def read_bearings(text: str) -> tuple[Number, ...]:
         if angle is not None:
             found.append(Number(angle, WRITTEN, *match.span(), "deg", angle))
     return tuple(found)
+
+
+def is_course(text: str, place: int) -> bool:
+    """Whether a number at a place of the text stands behind "heading" or a word like it."""
+    return _COURSE.search(text, max(0, place - 20), place) is not None
 
 
 def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:

@@ -18,12 +18,11 @@ from planner_ft.document.warnings.case import LONGER, Case, same_place
 from planner_ft.document.warnings.kinds import Warning, quoted, warning
 from planner_ft.facts import Number, is_place, near
 from planner_ft.facts.numbers import read_times, rows_of_sizes
-from planner_ft.facts.places import lone_coordinates
+from planner_ft.facts.places import is_course, lone_coordinates
 from planner_ft.facts.together import neighbours
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Vocabulary
 
-COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
@@ -161,8 +160,7 @@ def _is_measure(text: str, number: Number) -> bool:
     moment = MOMENT.fullmatch(text, number.start, number.end)
     if moment or number.unit == "%" or CLOCK.match(text, number.end):
         return False
-    course = COURSE.search(text, max(0, number.start - 20), number.start)
-    return number.unit is not None or course is not None
+    return number.unit is not None or is_course(text, number.start)
 
 
 # ---------------------------------------------------------------- limits and repeats
