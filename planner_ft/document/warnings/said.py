@@ -129,7 +129,8 @@ def _instead(case: Case) -> list[Number]:
 
 def bare_numbers(case: Case) -> Iterator[Warning]:
     """Numbers without a unit that are values all the same: behind the name of a parameter
-    ("radius 15"), in a row of sizes ("20x20x5"), or in place of an earlier value.
+    ("radius 15"), in a row of sizes ("20x20x5"), in place of an earlier value, or at the end of a
+    clause ("give it five").
     """
     for number in (one for one in case.numbers if one.unit is None):
         clause = case.clause_at(number.start)
@@ -140,7 +141,11 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         bare = _parameters(case.vocabulary).search(before) or SIZES.search(before)
         replacing = case.words["replaced"]
         instead = clause and replacing.match(clause.text.strip(" ,"))
-        ends = (match.end() for match in replacing.finditer(before))
+        kinds = [replacing]
+        last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
+        if last and number.value >= 2:
+            kinds.append(case.words["measured"])
+        ends = {match.end() for words in kinds for match in words.finditer(before)}
         behind = len(before.rstrip()) in ends
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if (bare or instead or behind) and not known:

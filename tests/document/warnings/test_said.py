@@ -51,6 +51,9 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
 @pytest.mark.parametrize(
     ("command", "tasks", "limits", "lost"),
     [
+        ("Out to 80 40, give it five, back in.", [to(80, 40), to(0, 0)], (), "value-lost"),
+        ("Out to 80 40, give it five, back in.", [to(80, 40), hold(300), to(0, 0)], (), None),
+        ("Out to 80 40, pass contact 5.", [to(80, 40)], (), None),
         (AREA, [to(100, 50), to(0, 0)], (), "limit-lost"),
         (AREA, [to(100, 50), to(0, 0)], (FENCE,), None),
         (AREA, [to(100, 50), to(0, 200), to(200, 0), to(0, 0)], (), "limit-lost"),
