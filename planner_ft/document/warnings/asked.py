@@ -22,8 +22,8 @@ NEAR = 24
 """Characters in which words that rule something out stand before it."""
 ARTICLE = 3
 """Words before a noun among which its article is."""
-NONE = "No "
-"""How a constraint begins that leaves something out."""
+NONE = re.compile(r"No |(The [\w ]+? does not )")
+"""How a constraint begins that leaves something out, or something that the vehicle does."""
 UNKNOWN = 0.55
 """The share of unknown words from which a command may be in another language
 (benchmarks/language_check.py).
@@ -92,13 +92,19 @@ def ruled_out_still(case: Case) -> Iterator[Warning]:
 
 
 def against_itself(case: Case) -> Iterator[Warning]:
-    """A task of the plan that a constraint of the plan rules out: "Diagnostics are not run"."""
+    """A task of the plan that a constraint of the plan rules out: "Diagnostics are not run", "The
+    vehicle does not dock".
+    """
     for text in case.document.get("constraints", ()):
-        for ask in (one for one in case.spoken.asks if len(one.tasks) == 1):
-            match = ask.named.search(text[len(NONE) :] if text.startswith(NONE) else text)
-            ruled_out = text.startswith(NONE) or case.words["exclusion"].search(text)
+        begun = NONE.match(text)
+        behind = text[begun.end() if begun else 0 :].rstrip(" .")
+        for ask in case.spoken.asks:
+            match = ask.named.match(behind)
+            whole = match is not None and match.end() == len(behind)
+            certain = whole if begun and begun[1] else len(ask.tasks) == 1
+            ruled_out = begun or case.words["exclusion"].search(text)
             own = [task for task in case.tasks if task["title"] in ask.tasks]
-            if match and match.start() == 0 and ruled_out and own:
+            if match and certain and ruled_out and own:
                 words = {"limit": text.rstrip("."), "about": text.casefold()}
                 yield warning("contradiction", "itself", own[0], **words)
                 break

@@ -221,3 +221,19 @@ def test_a_condition_that_no_text_of_the_plan_has(
     plan = document([THERE], command=command, constraints=texts)
     said = [one["text"] for one in plan["warnings"] if one["kind"] == "condition-lost"]
     assert [f'"{lost}"' in text for text in said] == [True] * (lost is not None)
+
+
+@pytest.mark.parametrize(
+    ("constraint", "found"),
+    [
+        ("The vehicle does not dock.", True),
+        ("The vehicle does not dock at the east pontoon.", False),
+        ("The vehicle does not return home.", False),
+    ],
+)
+def test_a_task_that_a_constraint_of_the_plan_rules_out_is_told(
+    constraint: str, found: bool
+) -> None:
+    dock = task("DockingApproach", {"goal_position": [9, 9]}, [step("GoToXY", {"x": 9, "y": 9})])
+    plan = document([THERE, dock], command="Go to 30, 40.", constraints=[constraint])
+    assert any(one["kind"] == "contradiction" for one in plan["warnings"]) == found
