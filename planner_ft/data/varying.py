@@ -1,10 +1,11 @@
-"""Samples with other values that prompt and plan share, and two samples as one.
+"""Samples with other values that prompt and plan share, and with fewer words.
 
 A model that is trained on a hundred commands of a vehicle learns their values by heart, and one
 that knows every word of its targets misspells an operator's unknown word. With other values in each
 copy of a command it learns to copy them: numbers, which `planner_ft.facts` finds, and words that
-input and plan share, the name of a thing or a proper name. So this works for any vehicle.
-Recombined samples teach it to go on behind the first order (Jia and Liang 2016, arXiv:1606.03622).
+input and plan share, the name of a thing or a proper name. So this works for any vehicle. Where
+words of a command are missing it learns to do with the others ("check" or "valve"; Iyyer et al.
+2015, P15-1162).
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import in_words
-from planner_ft.data.rules import rule_problems
 from planner_ft.data.wordlists import any_things, made_up_name, pseudo_word
 from planner_ft.facts.geometry import tidy
 from planner_ft.facts.numbers import read_numbers
@@ -32,8 +32,6 @@ TRIES = 8
 _FIGURE = re.compile(r"[-−–]?\d+(?:\.\d+)?(?![\w:/.,]*\d)")
 _FIGURES = re.compile(r"(?<![\w.\-])-?\d+(?:\.\d+)?(?![\w:/]*\d)")
 Said = dict[float, float]
-LINKS = (". Then ", ". After that ", ", then ", "; then ", ". Next, ", ". ")
-MOST_TASKS = 7
 
 
 def varied(record: dict[str, Any], vocabulary: Vocabulary, rng: Random) -> dict[str, Any] | None:
@@ -162,7 +160,8 @@ def _changed(expected: dict[str, Any], said: Said, own: set[float], drawn: Said)
 _WORD = re.compile(r"(?<![\w-])[^\W\d_]{4,}(?![\w-])")
 _TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 _LISTS: dict[str, list[str]] = {k: v.split() for k, v in _TABLES.items() if isinstance(v, str)}
-_STAYING, _ACCENTS = frozenset(_LISTS["staying"]), dict[str, str](_TABLES["accents"])
+_STAYING, _MEANING = frozenset(_LISTS["staying"]), frozenset(_LISTS["meaning"])
+_ACCENTS = dict[str, str](_TABLES["accents"])
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[^\W\d_A-Z]+")
 """The words of a name such as CaptureGeoSnapshot, follow-slick or lx.level."""
 _UNCLEAR = ("u", "eu", "one", "hon")
@@ -243,37 +242,33 @@ def _shared_words(record: dict[str, Any], vocabulary: Vocabulary, own: bool) -> 
     return [w for w in shared if own or w in things or (w[0].isupper() and not w.isupper())]
 
 
-# ---------------------------------------------------------------- two samples as one
+# ---------------------------------------------------------------- fewer words
 
 
-def joined(
-    first: dict[str, Any], second: dict[str, Any], vocabulary: Vocabulary, rng: Random
-) -> dict[str, Any] | None:
-    """A record that asks for both plans in this order; None where the labelling rules do not allow
-    it, one of them rules something out, or both speak of one thing.
+_NUMBERS = frozenset(in_words(number) for number in range(100))
+
+
+def with_lost_words(record: dict[str, Any], rng: Random) -> dict[str, Any] | None:
+    """`record` with one or two words of its command left out, or unknown ones in their place; None
+    for one of few words.
+
+    What the plan's parameters have stays, and so do short words, numbers, and words such as "never"
+    and "north" that change an order's meaning.
     """
-    plans = [record["expected"] for record in (first, second)]
-    tasks = [task for plan in plans for task in plan["tasks"]]
-    if not all(plan["tasks"] for plan in plans) or any(plan["constraints"] for plan in plans):
+    prompt: str = record["prompt"]
+    values = [parameters for _name, parameters in named_entries("mission", record["expected"])]
+    texts = (leaf.lower() for leaf in _leaves(values) if isinstance(leaf, str))
+    stays = _MEANING | _NUMBERS | {word for text in texts for word in _WORD.findall(text)}
+    words = [match for match in _WORD.finditer(prompt) if match[0].lower() not in stays]
+    if len(words) < 2:
         return None
-    if len(tasks) > MOST_TASKS or _named(plans[0], vocabulary) & _named(plans[1], vocabulary):
-        return None
-    link, behind = rng.choice(LINKS), second["prompt"].strip()
-    if link != ". " and behind[1:2].islower():
-        behind = behind[0].lower() + behind[1:]
-    assumptions = [text for plan in plans for text in plan["assumptions"]]
-    expected = {"tasks": tasks, "assumptions": assumptions, "constraints": []}
-    known = sum(len(rule_problems(plan, vocabulary)) for plan in plans)
-    if len(rule_problems(expected, vocabulary)) > known:
-        return None
-    prompt = first["prompt"].strip().rstrip(".!") + link + behind
-    return {**first, "prompt": prompt, "expected": expected}
+    for match in sorted(rng.sample(words, rng.choice((1, 1, 2))), key=lambda one: -one.start()):
+        before, behind = prompt[: match.start()], prompt[match.end() :]
+        prompt = before + _noun(rng) + behind if rng.random() < 0.5 else before.rstrip() + behind
+    return {**record, "prompt": prompt.strip(" ,")}
 
 
-def _named(plan: dict[str, Any], vocabulary: Vocabulary) -> set[str]:
-    """The things and known places of a plan."""
-    values = [value for task in plan["tasks"] for value in task["parameters"].values()]
-    open_places = (list(vocabulary.home), list(vocabulary.unresolved))
-    return {str(value) for value in values if isinstance(value, str | list)} - {
-        str(place) for place in open_places
-    }
+def with_heading(record: dict[str, Any], rng: Random) -> dict[str, Any]:
+    """`record` with a word and a number before it that say nothing: "Permit 118: "."""
+    heading = f"{rng.choice(_things()).capitalize()} {rng.randint(2, 400)}"
+    return {**record, "prompt": f"{heading}: {record['prompt']}"}

@@ -26,6 +26,8 @@ SHOWN = 5
 """Problems of one kind that are listed; the others are counted."""
 JOINED, PARTNERS = 0.4, 4
 """Share of the varied copies that go on with another record, the first of so many that fits."""
+SEVERAL, LOST, HEADED = 0.25, 0.5, 0.08
+"""Shares of those that ask for several places where they can, lack words, have a heading."""
 AUGMENT_SEED = 7_000_000
 """Far from the seeds of `gen-data`: no synthetic data set of a small seed has the same samples."""
 Record = dict[str, Any]
@@ -108,21 +110,30 @@ class Split:
         return self._extended(named, "".join(map(compact_json, records)))
 
     def varied(self, seed: int, count: int) -> Split:
-        """With `count` copies of each record with other values where it has some; a part of them
-        goes on with another record. Raises PlannerError at task level.
+        """With `count` copies of each record with other values where it has some; parts of them go
+        on with another record, are of several places, or lack words. Raises PlannerError at task
+        level.
         """
-        from planner_ft.data.varying import joined, varied
+        from planner_ft.data.recombining import at_several, joined
+        from planner_ft.data.varying import varied, with_heading, with_lost_words
 
         if self.level == "task":
             raise PlannerError("--vary is for the mission level; --augment makes samples of both")
         made = []
         for number, record in itertools.product(range(1, count + 1), self.records):
-            rng, longer = Random(f"{seed} {number} {record['id']}"), None
+            rng, new = Random(f"{seed} {number} {record['id']}"), record
+            if rng.random() < SEVERAL:
+                new = at_several(new, self.vocabulary, rng) or new
             if rng.random() < JOINED:
                 others = rng.choices(self.records, k=PARTNERS)
-                tried = (joined(record, other, self.vocabulary, rng) for other in others)
-                longer = next(filter(None, tried), None)
-            if new := varied(longer or record, self.vocabulary, rng) or longer:
+                tried = (joined(new, other, self.vocabulary, rng) for other in others)
+                new = next(filter(None, tried), new)
+            new = varied(new, self.vocabulary, rng) or new
+            if rng.random() < LOST:
+                new = with_lost_words(new, rng) or new
+            if rng.random() < HEADED:
+                new = with_heading(new, rng)
+            if new is not record:
                 made.append({**new, "id": f"varied-{number}-{record['id']}"})
         return self._extended(made)
 
