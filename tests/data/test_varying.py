@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.varying import varied
+from planner_ft.data.varying import varied, with_heading, with_lost_words
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 
@@ -106,3 +106,32 @@ def test_home_and_the_unresolved_place_stay() -> None:
     )
     for copy in copies(scan):
         assert copy["expected"]["tasks"][0]["parameters"]["center"] == [-99, -99]
+
+
+def test_a_command_loses_words_but_nothing_that_its_plan_or_meaning_needs() -> None:
+    find = record(
+        "Please never search the harbour again for the rusty ladder at eleven.",
+        ("FindAsset", {"target_description": "rusty ladder"}, "Search for the rusty ladder."),
+    )
+    found = [with_lost_words(find, Random(seed)) for seed in range(30)]
+    prompts = {copy["prompt"] for copy in found if copy}
+    assert len(prompts) > 6
+    for words in ("never", "again", "rusty ladder", "eleven"):
+        assert all(words in prompt for prompt in prompts)
+    assert any("search" not in prompt for prompt in prompts)
+    assert any("harbour" not in prompt for prompt in prompts)
+    assert all(copy["expected"] is find["expected"] for copy in found if copy)
+
+
+def test_a_command_of_few_words_loses_none() -> None:
+    hover = record("Hover 20 s.", ("HoverWatch", {"duration": 20}, "Hover for 20 seconds."))
+    assert with_lost_words(hover, Random(1)) is None
+
+
+def test_a_heading_stands_before_the_command_and_leaves_the_plan() -> None:
+    hover = record("Hover 20 s.", ("HoverWatch", {"duration": 20}, "Hover for 20 seconds."))
+    headed = with_heading(hover, Random(1))
+    heading, command = headed["prompt"].split(": ")
+    assert command == "Hover 20 s."
+    assert heading.split()[1].isdigit()
+    assert headed["expected"] is hover["expected"]

@@ -1,4 +1,4 @@
-"""One mission sample behind another."""
+"""One mission sample behind another, or at several places."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.varying import LINKS, joined
+from planner_ft.data.recombining import FIRST as AHEAD
+from planner_ft.data.recombining import LINKS, at_several, joined
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 
@@ -32,8 +33,8 @@ FIRST = record("Fly to [40, 18].", fly(40, 18))
 SECOND = record("Hover at [9, 3] for a minute.", fly(9, 3), HOVER)
 
 
-@pytest.mark.parametrize("seed", range(6))
-def test_the_second_command_and_its_plan_stand_behind_the_first(seed: int) -> None:
+@pytest.mark.parametrize("seed", range(12))
+def test_the_second_plan_stands_behind_the_first_whatever_is_said_first(seed: int) -> None:
     made = joined(FIRST, SECOND, DRONE, Random(seed))
     assert made is not None
     assert [task["title"] for task in made["expected"]["tasks"]] == [
@@ -46,6 +47,7 @@ def test_the_second_command_and_its_plan_stand_behind_the_first(seed: int) -> No
         f"Fly to [40, 18]{link}{'H' if link == '. ' else 'h'}over at [9, 3] for a minute."
         for link in LINKS
     }
+    texts |= {f"Hover at [9, 3] for a minute{link}fly to [40, 18]." for link in AHEAD}
     assert made["prompt"] in texts
     assert not plan_problems("mission", made["expected"], DRONE, strict=True)
 
@@ -67,3 +69,36 @@ def test_samples_that_do_not_go_together_are_not_joined(
     first: dict[str, Any], second: dict[str, Any]
 ) -> None:
     assert all(joined(first, second, DRONE, Random(seed)) is None for seed in range(8))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_same_is_done_at_every_place_in_the_order_of_the_command(seed: int) -> None:
+    made = at_several(SECOND_ALONE, DRONE, Random(seed))
+    assert made is not None
+    places = [task["parameters"]["target_position"] for task in made["expected"]["tasks"][::2]]
+    holds = made["expected"]["tasks"][1::2]
+    assert 2 <= len(places) <= 4
+    assert places[0] == [9, 3]
+    assert [made["prompt"].index(str(place)) for place in places] == sorted(
+        made["prompt"].index(str(place)) for place in places
+    )
+    assert {task["title"] for task in holds} == {"HoverWatch"}
+    assert [task["task_prompt"] for task in made["expected"]["tasks"][::2]] == [
+        f"Fly to {place}." for place in places
+    ]
+    assert not plan_problems("mission", made["expected"], DRONE, strict=True)
+
+
+SECOND_ALONE = {**SECOND, "expected": {**SECOND["expected"], "assumptions": []}}
+
+
+@pytest.mark.parametrize(
+    "one",
+    [
+        pytest.param(SECOND, id="an assumption"),
+        pytest.param(record("Fly home.", HOME), id="no place"),
+        pytest.param(record("[1, 2], then [3, 4].", fly(1, 2), fly(3, 4)), id="two places"),
+    ],
+)
+def test_other_plans_stay_at_their_places(one: dict[str, Any]) -> None:
+    assert at_several(one, DRONE, Random(1)) is None
