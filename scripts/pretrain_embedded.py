@@ -10,8 +10,8 @@ checkpoint as a model folder.
 from __future__ import annotations
 
 import argparse
-import gc
 import dataclasses
+import gc
 import json
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
