@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
+ALIGNED = 0.35
+"""Share of the positions that share a coordinate with another one of the command."""
 SPOKEN_IN_KNOTS, BOXED = 0.5, 0.3
 """Shares of the limits of speed in knots, and of the boxes that two of their corners name."""
 SIDES = (20, 300)
@@ -84,14 +86,20 @@ class Filling(Chosen):
             self.values[key] = self._value(slot)
 
     def _point(self, corner: str = "", ways: Sequence[tuple[int, int]] = ()) -> Point:
-        """A position; the one opposite a corner where that is given."""
+        """A position; the one opposite a corner where that is given. Some share a coordinate or both
+        with other places of the command, as the corners of a box do.
+        """
+        known = [target.position for target in self.targets.values() if target.position]
         while True:
             place = draw_point(self.rng)
+            if known and self.rng.random() < ALIGNED:
+                x, y = pick(known, self.rng)[0], pick(known, self.rng)[1]
+                place = pick(((x, place[1]), (place[0], y), (x, y)), self.rng)
             if corner in self.targets:
                 sides = (way * draw_number(self.rng, *SIDES) for way in pick(ways, self.rng))
                 start = self._place_of(corner)
                 place = point(*(one + side for one, side in zip(start, sides, strict=True)))
-            if place not in (self.vocabulary.home, self.vocabulary.unresolved):
+            if place not in (self.vocabulary.home, self.vocabulary.unresolved, *known):
                 return place
 
     def _worth(self, key: str) -> Any:
