@@ -15,8 +15,18 @@ from planner_ft.data.rules import rule_problems
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Vocabulary
 
-LINKS = (". Then ", ". After that ", ", then ", "; then ", ". Next, ", ". ", "; ", " - ", " > ")
-FIRST = (
+LINKS: tuple[str, ...] = (
+    ". Then ",
+    ". After that ",
+    ", then ",
+    "; then ",
+    ". Next, ",
+    ". ",
+    "; ",
+    " - ",
+    " > ",
+)
+FIRST: tuple[str, ...] = (
     ", but first ",
     ". Before that, ",
     ". But before that, ",
