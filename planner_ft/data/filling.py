@@ -86,20 +86,21 @@ class Filling(Chosen):
             self.values[key] = self._value(slot)
 
     def _point(self, corner: str = "", ways: Sequence[tuple[int, int]] = ()) -> Point:
-        """A position; the one opposite a corner where that is given. Some share a coordinate or both
-        with other places of the command, as the corners of a box do.
+        """A position; the one opposite a corner where that is given. Some share coordinates with
+        other places of the command, as the corners of a box do.
         """
         known = [target.position for target in self.targets.values() if target.position]
+        taken = {self.vocabulary.home, self.vocabulary.unresolved, *known}
         while True:
             place = draw_point(self.rng)
             if known and self.rng.random() < ALIGNED:
-                x, y = pick(known, self.rng)[0], pick(known, self.rng)[1]
+                (x, _), (_, y) = pick(known, self.rng), pick(known, self.rng)
                 place = pick(((x, place[1]), (place[0], y), (x, y)), self.rng)
             if corner in self.targets:
                 sides = (way * draw_number(self.rng, *SIDES) for way in pick(ways, self.rng))
                 start = self._place_of(corner)
                 place = point(*(one + side for one, side in zip(start, sides, strict=True)))
-            if place not in (self.vocabulary.home, self.vocabulary.unresolved, *known):
+            if place not in taken:
                 return place
 
     def _worth(self, key: str) -> Any:
