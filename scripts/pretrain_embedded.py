@@ -4,23 +4,22 @@
     python scripts/pretrain_embedded.py --work /tmp/embedded --export planner_ft/candidates/embedded
 
 The first command can be killed and started again at any time. The second writes the newest
-checkpoint as a model folder.
+checkpoint as a model folder. On a GPU: --width 1024 --batch-tokens 65536 --workers 14, and
+--seconds to end after a time.
 """
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
-import gc
 import json
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from planner_ft.pretraining.corpus import Mixture
+from planner_ft.pretraining.drawing import Job, grids_of, shards_of
 from planner_ft.pretraining.loop import PretrainSettings
 from planner_ft.support.files import write_json
-from planner_ft.support.manifest import source_commit
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -44,29 +43,9 @@ def tokenizer_of(work: Path, arguments: argparse.Namespace) -> Any:
     return PreTrainedTokenizerFast.from_pretrained(folder)
 
 
-def make_shard(job: tuple[Path, Path, int, int, int, Mixture]) -> dict[str, int]:
-    """Write one shard of the corpus (worker process)."""
-    from transformers import PreTrainedTokenizerFast
-
-    from planner_ft.pretraining.corpus import encode_shard
-
-    path, tokenizer, seed, count, longest, mixture = job
-    gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
-    return encode_shard(
-        path,
-        PreTrainedTokenizerFast.from_pretrained(tokenizer),
-        load_vocabulary(),
-        seed=seed,
-        count=count,
-        mixture=mixture,
-        longest=longest,
-    )
-
-
-def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSettings) -> list[Path]:
-    """The corpus as shard files, those that are missing written first."""
-    paths = [work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards)]
-    mixture = Mixture(
+def mixture_of(arguments: argparse.Namespace) -> Mixture:
+    """What the command line says of the samples."""
+    return Mixture(
         arguments.mission_share,
         arguments.drill_share,
         arguments.unfamiliar_share,
@@ -78,20 +57,17 @@ def shards_of(work: Path, arguments: argparse.Namespace, settings: PretrainSetti
         subjects=tuple(arguments.subjects),
         prompts=tuple(arguments.prompts),
     )
+
+
+def jobs_of(arguments: argparse.Namespace, settings: PretrainSettings) -> list[Job]:
+    """The shards of the corpus as arguments of `make_shard`."""
+    work, mixture = arguments.work, mixture_of(arguments)
     drawn = (arguments.shard_samples, settings.longest, mixture)
-    jobs = [
+    paths = (work / "corpus" / f"shard-{index:03d}.npz" for index in range(arguments.shards))
+    return [
         (path, work / "tokenizer", arguments.corpus_seed + index, *drawn)
         for index, path in enumerate(paths)
-        if not path.is_file()
     ]
-    commit = source_commit()["commit"]
-    with ProcessPoolExecutor(2) as pool:
-        for job, counts in zip(jobs, pool.map(make_shard, jobs), strict=True):
-            print(f"{job[0].name}: {counts}", flush=True)
-            shares = {**dataclasses.asdict(mixture), "folder": str(mixture.folder)}
-            made = {**counts, "mixture": shares, "commit": commit}
-            write_json(job[0].with_suffix(".json"), made)
-    return paths
 
 
 def initialise(model: Any, init: Path) -> None:
@@ -196,6 +172,7 @@ OPTIONS: dict[str, tuple[Any, str]] = {
     "own-share": (0.4, "packs of the surface vehicle under other names among the packs"),
     "emphasis": (0.0, "missions that are drawn from the templates of --subjects alone"),
     "corpus-seed": (1000, ""),
+    "workers": (2, "processes that draw the corpus"),
     "tokenizer-samples": (20_000, ""),
     "vocabulary-size": (4096, ""),
 }
@@ -217,6 +194,7 @@ def parsed() -> argparse.Namespace:
     add("--average-with", type=Path, help="model folder that --init-share is about, not --init")
     add("--subjects", nargs="*", default=[], help="subjects of command templates, for --emphasis")
     add("--prompts", nargs="*", default=[], help="subjects of prompt templates, for --emphasis")
+    add("--device", default="cuda", help="where grids (--width) are trained on")
     for name, (default, text) in OPTIONS.items():
         kind = Path if isinstance(default, Path) else type(default)
         add(f"--{name}", type=kind, default=default, help=text)
@@ -254,16 +232,15 @@ def main() -> None:
         return
     if arguments.init:
         initialise(model, arguments.init)
-    print(
-        pretrain(
-            model,
-            shards_of(arguments.work, arguments, settings),
-            settings,
-            pad=special["pad"],
-            folder=arguments.work,
-        ),
-        flush=True,
+    jobs, workers = jobs_of(arguments, settings), arguments.workers
+    grids = grids_of(jobs, workers, settings.width, settings.seed) if settings.width else None
+    shards = [] if grids else shards_of(jobs, workers)
+    if grids:
+        model.to(arguments.device)
+    trained = pretrain(
+        model, shards, settings, pad=special["pad"], folder=arguments.work, grids=grids
     )
+    print(trained, flush=True)
 
 
 if __name__ == "__main__":

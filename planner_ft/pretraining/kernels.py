@@ -11,6 +11,7 @@ from typing import Any
 
 import torch
 from torch import Tensor
+from torch.nn.functional import scaled_dot_product_attention
 
 CAUSAL = "planner_ft_causal"
 LONGEST = 2048
@@ -167,7 +168,7 @@ torch.library.register_autograd(
 
 def register_attention() -> None:
     """Name the attention CAUSAL for transformers' models; padding must stand on the right. With
-    `parts`, samples share a row (`packs.Row`).
+    `parts`, samples share a row (`packs.Row`); `bias` says what each position of a grid sees.
     """
     from transformers.modeling_utils import ALL_ATTENTION_FUNCTIONS
 
@@ -179,10 +180,14 @@ def register_attention() -> None:
         _mask: Any,
         scaling: float,
         parts: Tensor | None = None,
+        bias: Tensor | None = None,
         **_: Any,
     ) -> tuple[Tensor, None]:
         # Rotary positions leave queries and keys in float32, also where values are bfloat16.
         same = (query.to(value.dtype), key.to(value.dtype), value)
+        if bias is not None:
+            found = scaled_dot_product_attention(*same, attn_mask=bias, scale=scaling)
+            return found.transpose(1, 2), None
         if parts is not None:
             return shared_attention(*same, parts, scaling)[None].transpose(1, 2), None
         attended, _weights = causal_attention(*same, scaling)

@@ -1,7 +1,8 @@
 """The pretraining loop: bf16 autocast, Muon for matrices and AdamW for the rest, resumable.
 
-Started by torchrun with several processes, each takes its share of every batch: the result does not
-depend on their number, up to rounding, and a run may be resumed with another number.
+On a GPU it takes grids (`grids.py`), whose rows have one width. On a processor, started by torchrun
+with several processes, each takes its share of every batch: the result does not depend on their
+number, up to rounding, and a run may be resumed with another number.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import torch
 from torch import Tensor, nn
 
 from planner_ft.pretraining.corpus import Rows, batched, load_shard
+from planner_ft.pretraining.grids import Grid, bias_of, grid_batches
 from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
 from planner_ft.pretraining.packs import IGNORE, Row, rows_of_packs
 from planner_ft.pretraining.weights import rounded
@@ -32,10 +34,13 @@ class PretrainSettings:
     `tokens` is the training budget, padding not counted. Samples of more than `longest` tokens are
     left out of the corpus. `decay` is the share of the budget over which the learning rate falls
     linearly to zero, at the end. With `four_bit` the forward pass sees the layers' matrices rounded
-    to NF4, as the candidate runs.
+    to NF4, as the candidate runs. `seconds`, where not 0, end a run before its tokens do. `width`
+    is that of the rows of a grid, where the model is trained on grids.
     """
 
     tokens: int = 30_000_000
+    seconds: float = 0.0
+    width: int = 0
     hidden: int = 256
     layers: int = 8
     heads: int = 4
@@ -77,9 +82,29 @@ def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[st
     return LlamaForCausalLM(config)
 
 
-def learning_rate(settings: PretrainSettings, tokens: int) -> float:
-    """Factor of the peak learning rate: linear warm-up, plateau, linear decay to zero."""
-    done = tokens / settings.tokens
+class Budget:
+    """Tokens and seconds of a run. The seconds count from its start, but none of them is spent
+    before the first step is done: it compiles the model.
+    """
+
+    def __init__(self, settings: PretrainSettings) -> None:
+        self.tokens, self.seconds = settings.tokens, settings.seconds
+        self.started, self.begun = time.monotonic(), float("inf")
+
+    def spent(self, tokens: int) -> float:
+        """Share of the budget that is spent behind `tokens` tokens, 0 to 1."""
+        used = time.monotonic() - self.begun
+        if not self.seconds or used < 0:
+            return min(1.0, tokens / self.tokens)
+        return min(
+            1.0, max(tokens / self.tokens, used / (self.started + self.seconds - self.begun))
+        )
+
+
+def learning_rate(settings: PretrainSettings, done: float) -> float:
+    """Factor of the peak learning rate when `done` of the budget is spent: linear warm-up, plateau,
+    linear decay to zero.
+    """
     return max(0.0, min(1.0, done / settings.warmup, (1.0 - done) / settings.decay))
 
 
@@ -129,6 +154,24 @@ def completion_loss(
     return summed_cross_entropy(chosen, model.lm_head.weight, labels[places]) / max(1, answers)
 
 
+def grid_loss(model: Any, body: Any, grid: Grid) -> Tensor:
+    """Mean cross-entropy over the answer tokens of a grid, on the device of the model."""
+    device = model.device
+    found = np.flatnonzero(grid.labels != IGNORE)
+    ids, positions, units, parts, targets, places = (
+        torch.from_numpy(values.astype(np.int64)).to(device)
+        for values in (
+            *(grid.input_ids, grid.positions, grid.units, grid.parts),
+            *(grid.labels.ravel()[found], found),
+        )
+    )
+    with torch.autocast(device.type, dtype=torch.bfloat16):
+        bias = bias_of(units, parts)
+        hidden = body(input_ids=ids, position_ids=positions, bias=bias, use_cache=False)[0]
+        logits = model.lm_head(hidden.flatten(0, 1)[places])
+    return torch.nn.functional.cross_entropy(logits.float(), targets)
+
+
 def share_of(rows: Rows, rank: int, world: int) -> Rows:
     """The rows of a batch that a rank computes, two at least: rows without labels fill them up.
 
@@ -166,9 +209,16 @@ def optimizers(model: nn.Module, settings: PretrainSettings) -> list[torch.optim
 
 
 def pretrain(
-    model: Any, shards: list[Path], settings: PretrainSettings, *, pad: int, folder: Path
+    model: Any,
+    shards: list[Path],
+    settings: PretrainSettings,
+    *,
+    pad: int,
+    folder: Path,
+    grids: Iterator[Grid] | None = None,
 ) -> dict[str, Any]:
-    """Train until the token budget is spent; return tokens, steps, seconds and loss.
+    """Train until the budget is spent; return tokens, steps, seconds and loss. `grids` are trained
+    on instead of the shards.
 
     Resumes from `folder`/checkpoint.pt. Logs a JSON line per 20 steps to
     `folder`/log.jsonl and to the terminal.
@@ -177,16 +227,26 @@ def pretrain(
     optims = optimizers(model, settings)
     matrices = layer_matrices(model)
     state = _restore(folder, model, optims)
-    body = torch.compile(model.model, dynamic=True) if settings.compile else model.model
-    started = saved = time.monotonic()
-    begin_tokens, losses = state["tokens"], []
-    for rows in batches(shards, settings, pad, state["step"]):
-        factor = learning_rate(settings, state["tokens"])
+    body = model.model
+    if settings.compile:
+        body = torch.compile(model.model, dynamic=grids is None)
+    drawn: Iterator[Rows | Row | Grid] = (
+        grid_batches(grids, settings.batch_tokens // settings.width)
+        if grids
+        else batches(shards, settings, pad, state["step"])
+    )
+    budget, saved = Budget(settings), time.monotonic()
+    begin_tokens, losses = state["tokens"], list[Tensor]()
+    for rows in drawn:
+        factor = learning_rate(settings, budget.spent(state["tokens"]))
         for optim, peak in zip(optims, (settings.matrix_lr, settings.other_lr), strict=True):
             for group in optim.param_groups:
                 group["lr"] = factor * peak
         with rounded(matrices) if settings.four_bit else nullcontext():
-            loss = completion_loss(model, body, rows, rank, world)
+            if isinstance(rows, Grid):
+                loss = grid_loss(model, body, rows)
+            else:
+                loss = completion_loss(model, body, rows, rank, world)
             torch.autograd.backward(loss)
         losses.append(_summed(model, loss.detach(), world))
         torch.nn.utils.clip_grad_norm_(model.parameters(), settings.gradient_clip)
@@ -195,11 +255,14 @@ def pretrain(
             optim.zero_grad(set_to_none=True)
         state["step"] += 1
         state["tokens"] += rows.tokens
-        done = state["tokens"] >= settings.tokens
+        if len(losses) == 1:
+            budget.begun = time.monotonic()
+        share = budget.spent(state["tokens"])
+        done = share >= 1.0
         if rank == 0 and (state["step"] % 20 == 0 or done):
-            seconds = time.monotonic() - started
+            seconds = time.monotonic() - budget.started
             rate = (state["tokens"] - begin_tokens) / seconds
-            _log(folder, state, float(np.mean(losses[-20:])), settings, rate)
+            _log(folder, state, _mean(losses[-20:]), rate, seconds * (1 - share) / share)
         if done or time.monotonic() - saved > settings.checkpoint_seconds:
             state["seconds"] += time.monotonic() - saved
             saved = time.monotonic()
@@ -207,7 +270,11 @@ def pretrain(
                 _save(folder, model, optims, state)
         if done:
             break
-    return {**state, "loss": float(np.mean(losses[-50:])), "settings": asdict(settings)}
+    return {**state, "loss": _mean(losses[-50:]), "settings": asdict(settings)}
+
+
+def _mean(losses: list[Tensor]) -> float:
+    return float(torch.stack(losses).mean())
 
 
 def _join() -> tuple[int, int]:
@@ -218,7 +285,7 @@ def _join() -> tuple[int, int]:
     return int(os.environ.get("RANK", "0")), world
 
 
-def _summed(model: nn.Module, loss: Tensor, world: int) -> float:
+def _summed(model: nn.Module, loss: Tensor, world: int) -> Tensor:
     """The loss of the whole batch; gradients are summed over the processes, in one message."""
     if world > 1:
         gradients = [value.grad for value in model.parameters() if value.grad is not None]
@@ -228,17 +295,16 @@ def _summed(model: nn.Module, loss: Tensor, world: int) -> float:
         for gradient, part in zip(gradients, parts, strict=True):
             gradient.copy_(part.view_as(gradient))
         loss = message[-1]
-    return float(loss)
+    return loss
 
 
 def _log(
-    folder: Path, state: dict[str, Any], loss: float, settings: PretrainSettings, rate: float
+    folder: Path, state: dict[str, Any], loss: float, rate: float, seconds_left: float
 ) -> None:
     line = {"step": state["step"], "tokens": state["tokens"], "loss": round(loss, 4)}
     line["tokens_per_s"] = round(rate)
-    eta = (settings.tokens - state["tokens"]) / rate / 60
     done = f"{line['step']:6d}  {line['tokens'] / 1e6:6.2f} M tokens  loss {line['loss']:.4f}"
-    print(f"{done}  {rate:6.0f} tok/s  {eta:5.1f} min left", flush=True)
+    print(f"{done}  {rate:6.0f} tok/s  {seconds_left / 60:5.1f} min left", flush=True)
     with open(folder / "log.jsonl", "a", encoding="utf-8") as stream:
         stream.write(json.dumps(line) + "\n")
 
@@ -256,7 +322,7 @@ def _restore(folder: Path, model: nn.Module, optims: list[torch.optim.Optimizer]
     path = folder / "checkpoint.pt"
     if not path.is_file():
         return {"step": 0, "tokens": 0, "seconds": 0.0}
-    saved = torch.load(path, weights_only=True)
+    saved = torch.load(path, weights_only=True, map_location=getattr(model, "device", None))
     model.load_state_dict(saved["model"])
     for optim, values in zip(optims, saved["optimizers"], strict=True):
         optim.load_state_dict(values)

@@ -136,6 +136,11 @@ def test_the_loss_falls_and_an_interrupted_run_continues(
 
 def test_the_learning_rate_rises_stays_and_falls_to_zero() -> None:
     settings = replace(TINY, tokens=1000, warmup=0.1, decay=0.5)
-    assert [
-        round(learning_rate(settings, tokens), 2) for tokens in (0, 50, 100, 500, 750, 1000)
-    ] == [0, 0.5, 1, 1, 0.5, 0]
+    assert [round(learning_rate(settings, done), 2) for done in (0, 0.05, 0.1, 0.5, 0.75, 1)] == [
+        0,
+        0.5,
+        1,
+        1,
+        0.5,
+        0,
+    ]
