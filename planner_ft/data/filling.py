@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -20,7 +21,7 @@ from planner_ft.data.mission_binding import CLAUSE, LIMIT, Bound, Line
 from planner_ft.data.mission_plan import Target, point_text
 from planner_ft.data.numbers import WRITTEN, Value, bearing, knots, pick
 from planner_ft.data.task.values import draw_number, draw_point
-from planner_ft.data.templates.grammar import Chosen, Slot, base_of
+from planner_ft.data.templates.grammar import Chosen, Slot, base_of, fail
 from planner_ft.data.templates.records import Template
 from planner_ft.facts.geometry import Point, point
 
@@ -29,15 +30,17 @@ if TYPE_CHECKING:
 
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
-ALIGNED = 0.35
-"""Share of the positions that share a coordinate with another one of the command."""
+ALIGNED = 0.4
+"""Share of the positions that share a coordinate with another one of the command, or with home."""
 SPOKEN_IN_KNOTS, BOXED = 0.5, 0.3
 """Shares of the limits of speed in knots, and of the boxes that two of their corners name."""
 SIDES = (20, 300)
-"""Metres between two opposite corners, each way."""
+"""Metres between two corners, each way."""
 DOUBTFUL, FITTING = 0.04, 0.6
 """Shares of doubtful positions, and of the spacings that divide the width."""
 LANES = 12
+AT_HOME = frozenset(("x0", "y0"))
+BESIDE = re.compile(r"[xy]\d+|on\d+_\d+")
 UNPLACED = frozenset(("a", "one", "look", "nouns"))
 """Options of mentions that carry no position."""
 
@@ -60,7 +63,7 @@ class Filling(Chosen):
         self.lines = [line for line in bound.lines if line.label in chosen]
         self.corners = {other: (one, ways) for one, other, ways in opposite(template.plan)}
         self.winds = directions(template.plan)
-        self.slots.sort(key=lambda slot: slot.base != "P")
+        self.slots.sort(key=lambda slot: 2 if slot.base != "P" else bool(slot.options - AT_HOME))
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:
                 self._draw(slot)
@@ -75,7 +78,8 @@ class Filling(Chosen):
         key = slot.key
         if slot.base == "P":
             doubtful = any(line.near == key for line in self.lines)
-            there = self._point(*self.corners.get(key, ()))
+            options = {option for one in self.slots if one.key == key for option in one.options}
+            there = self._beside(options) if options else self._point(*self.corners.get(key, ()))
             self.targets[key] = Target(key, position=there, doubtful=doubtful)
         elif slot.base == "T":
             self.targets[key] = self._target(slot)
@@ -94,13 +98,37 @@ class Filling(Chosen):
         while True:
             place = draw_point(self.rng)
             if known and self.rng.random() < ALIGNED:
-                (x, _), (_, y) = pick(known, self.rng), pick(known, self.rng)
+                others = [self.vocabulary.home, *known]
+                (x, _), (_, y) = pick(others, self.rng), pick(others, self.rng)
                 place = pick(((x, place[1]), (place[0], y), (x, y)), self.rng)
             if corner in self.targets:
                 sides = (way * draw_number(self.rng, *SIDES) for way in pick(ways, self.rng))
                 start = self._place_of(corner)
                 place = point(*(one + side for one, side in zip(start, sides, strict=True)))
             if place not in taken:
+                return place
+
+    def _beside(self, options: Iterable[str]) -> Point:
+        """A position with the x or the y of other places ("x1", "y2"; 0 is home), a side away along
+        the other axis, or the next one in a row of two ("on1_2"). Raises TemplateError.
+        """
+        shared: dict[str, float] = {}
+        start = self.vocabulary.home
+        for option in sorted(options):
+            numbers = re.findall(r"\d+", option) if BESIDE.fullmatch(option) else ["?"]
+            keys = [HOME if number == "0" else f"P{number}" for number in numbers]
+            if not self.targets.keys() | {HOME} >= {*keys}:
+                fail(f"{option} names no place that is said before")
+            start, *second = map(self._worth, keys)
+            if second:
+                return point(*(2 * there - one for one, there in zip(start, *second, strict=True)))
+            shared[option[0]] = start["xy".index(option[0])]
+        taken = {target.position for target in self.targets.values()}
+        while True:
+            sides = (pick((-1, 1), self.rng) * draw_number(self.rng, *SIDES) for _ in start)
+            moved = zip("xy", start, sides, strict=True)
+            place = point(*(shared.get(axis, one + side) for axis, one, side in moved))
+            if len(shared) == 2 or place not in taken:
                 return place
 
     def _worth(self, key: str) -> Any:

@@ -152,6 +152,7 @@ def test_bad_lines_are_named_by_file_and_line(tmp_path):
         ("Hold at {P1}.", "KeepStation P1 duration", "stands in the plan and not in the text"),
         ("Hold.", "KeepStation?now here", "the label ?now stands only"),
         ("Survey ({T1}|it).", "SurveyTarget T1", "not every alternative"),
+        ("Go {P1}, {P2 x3}.", "Transit P1; Transit P2", "x3 names no place"),
         ("Survey {T1:ghost}.", "SurveyTarget T1", "no word list ghost"),
         ("Survey {T1}.", 'SurveyTarget T1 radius="5', "is no slot, number"),
     ],
@@ -270,6 +271,15 @@ def test_a_move_ends_so_far_from_where_it_began(heading, step):
     assert once == (10 + step[0], 20 + step[1])
     twice = worked_out("mid(P1,move(move(P1,length,heading),length,heading))", place.__getitem__)
     assert twice == once
+
+
+def test_places_share_coordinates_where_the_text_says_so():
+    text = "{P1 x0}, {P2 y1}, {P3 x2}, {P4 x1 y3}, {P5 on1_2}"
+    for _text, tasks, _expected in draws(text, "; ".join(f"Transit P{n}" for n in range(1, 6))):
+        first, second, third, fourth, fifth = (task[1]["target_position"] for task in tasks)
+        assert first[0] == 0 and first[1] == second[1] and second[0] == third[0]
+        assert fourth == [first[0], third[1]] and fourth not in (first, second, third)
+        assert fifth[0] == pytest.approx(2 * second[0], abs=0.01) and fifth[1] == first[1]
 
 
 def test_a_command_has_limits_of_its_own_and_docks_without_a_name():
