@@ -63,7 +63,7 @@ class Filling(Chosen):
         self.lines = [line for line in bound.lines if line.label in chosen]
         self.corners = {other: (one, ways) for one, other, ways in opposite(template.plan)}
         self.winds = directions(template.plan)
-        self.slots.sort(key=lambda slot: 2 if slot.base != "P" else bool(slot.options - AT_HOME))
+        self.slots.sort(key=_turn)
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:
                 self._draw(slot)
@@ -249,6 +249,13 @@ class Filling(Chosen):
         """Whether an apostrophe follows the part: "the barge's"."""
         after = self.parts[number + 1] if number + 1 < len(self.parts) else ""
         return isinstance(after, str) and after.startswith(("'s", "’s"))
+
+
+def _turn(slot: Slot) -> tuple[int, str]:
+    """Places come first; those beside others follow these, by number."""
+    if slot.base != "P":
+        return 2, ""
+    return (1, slot.key) if slot.options - AT_HOME else (0, "")
 
 
 def is_name(text: str) -> bool:
