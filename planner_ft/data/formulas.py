@@ -33,6 +33,11 @@ FORMULAS: dict[str, Callable[..., Any]] = {
     "from_se": _from(-1, 1),
     "from_nw": _from(1, -1),
     "from_ne": _from(-1, -1),
+    "new_x": lambda place, x: point(x, place[1]),
+    "new_y": lambda place, y: point(place[0], y),
+    "mixed": lambda one, other: point(one[0], other[1]),
+    "swapped": lambda place: point(place[1], place[0]),
+    "mirror_x": lambda place: point(-place[0], place[1]),
 }
 CORNERS = {"mid": ((1, 1), (1, -1), (-1, 1), (-1, -1)), "sw_ne": ((1, 1),), "nw_se": ((1, -1),)}
 WINDS = (0, 90, 180, 270) * 3 + (45, 135, 225, 315)
