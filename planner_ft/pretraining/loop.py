@@ -24,7 +24,7 @@ from planner_ft.pretraining.corpus import Rows, batched, load_shard
 from planner_ft.pretraining.grids import Grid, bias_of, grid_batches
 from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
 from planner_ft.pretraining.packs import IGNORE, Row, rows_of_packs
-from planner_ft.pretraining.weights import rounded
+from planner_ft.pretraining.weights import add_dropout, rounded
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,8 @@ class PretrainSettings:
     left out of the corpus. `decay` is the share of the budget over which the learning rate falls
     linearly to zero, at the end. With `four_bit` the forward pass sees the layers' matrices rounded
     to NF4, as the candidate runs. `seconds`, where not 0, end a run before its tokens do. `width`
-    is that of the rows of a grid, where the model is trained on grids.
+    is that of the rows of a grid, where the model is trained on grids. `dropout` is the share of
+    what embeddings, attention and feed-forward layers give that is dropped in training.
     """
 
     tokens: int = 30_000_000
@@ -53,6 +54,7 @@ class PretrainSettings:
     warmup: float = 0.01
     decay: float = 0.4
     gradient_clip: float = 1.0
+    dropout: float = 0.0
     four_bit: bool = False
     seed: int = 0
     checkpoint_seconds: float = 240.0
@@ -224,6 +226,8 @@ def pretrain(
     `folder`/log.jsonl and to the terminal.
     """
     rank, world = _join()
+    if settings.dropout:
+        add_dropout(model, settings.dropout)
     optims = optimizers(model, settings)
     matrices = layer_matrices(model)
     state = _restore(folder, model, optims)

@@ -1,4 +1,4 @@
-"""Weights of the model in training: deeper models from shallower ones, layers rounded to 4 bits.
+"""The model in training: deeper models from shallower ones, dropout, layers rounded to 4 bits.
 
 The candidate runs with its layers' matrices in NF4. In a stage that is trained through the
 rounding, the forward pass sees what NF4 leaves of them, and the optimiser moves the weights behind
@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import torch
 from torch import Tensor
@@ -43,6 +44,22 @@ def deepened(weights: dict[str, Tensor], layers: int) -> dict[str, Tensor]:
                 own_value = torch.zeros_like(value) if empty else value.clone()
                 grown[f"{found[1]}{place}{found[3]}"] = own_value
     return grown
+
+
+def add_dropout(model: Any, share: float) -> None:
+    """Drop this share of what embeddings, attention and feed-forward layers of a Llama give, in
+    training mode: transformers' Llama has no such setting.
+    """
+
+    def dropped(module: Any, _given: Any, found: Any) -> Any:
+        if isinstance(found, tuple):
+            return dropped(module, _given, found[0]), *found[1:]
+        return torch.nn.functional.dropout(found, share, module.training)
+
+    for layer in model.model.layers:
+        layer.self_attn.register_forward_hook(dropped)
+        layer.mlp.register_forward_hook(dropped)
+    model.model.embed_tokens.register_forward_hook(dropped)
 
 
 def nf4(weights: Tensor) -> Tensor:

@@ -10,7 +10,7 @@ import pytest
 import torch
 
 from planner_ft.pretraining.loop import PretrainSettings, new_model
-from planner_ft.pretraining.weights import deepened
+from planner_ft.pretraining.weights import add_dropout, deepened
 
 SETTINGS = PretrainSettings(hidden=32, layers=4, heads=2, feed_forward=48)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}
@@ -47,3 +47,12 @@ def test_layers_are_not_taken_away(script: ModuleType, tmp_path: Path) -> None:
     small.save_pretrained(tmp_path / "init")
     with pytest.raises(SystemExit, match="--layers: The weights to start from have 4 layers"):
         script.initialise(new_model(replace(SETTINGS, layers=2), 64, SPECIAL), tmp_path / "init")
+
+
+def test_dropout_is_for_training_alone() -> None:
+    plain, model = (new_model(SETTINGS, 64, SPECIAL) for _ in range(2))
+    add_dropout(model, 0.2)
+    with torch.no_grad():
+        first, second = (model.train()(TOKENS).logits for _ in range(2))
+        torch.testing.assert_close(model.eval()(TOKENS).logits, plain.eval()(TOKENS).logits)
+    assert not torch.allclose(first, second)
