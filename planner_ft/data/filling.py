@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 LOCATED, SOUGHT = 0.5, 0.12
 """Shares of targets said with a position, and of those that the command looks for."""
-ALIGNED = 0.4
+ALIGNED = 0.5
 """Share of the positions that share a coordinate with another one of the command, or with home."""
 SPOKEN_IN_KNOTS, BOXED = 0.5, 0.3
 """Shares of the limits of speed in knots, and of the boxes that two of their corners name."""
