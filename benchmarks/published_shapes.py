@@ -107,10 +107,11 @@ def main() -> None:
     # By their paths: the candidates' own names mean real weights.
     counts = ("--train", "125", "--validation", "25", "--test", "25")
     run("gen-data", "--out", str(options.work / "data"), *counts, "--overwrite")
-    rows = [measure(name, options) for name in options.candidates]
-    known = {key: str(value) for key, value in vars(options).items()}
-    manifest = build_manifest("published_shapes", seed=0, configuration=known)
-    write_json(options.out, {"shrunk": options.shrink, "rows": rows, "manifest": manifest})
+    rows, known = [], {key: str(value) for key, value in vars(options).items()}
+    for name in options.candidates:
+        rows.append(measure(name, options))
+        manifest = build_manifest("published_shapes", seed=0, configuration=known)
+        write_json(options.out, {"shrunk": options.shrink, "rows": rows, "manifest": manifest})
 
 
 if __name__ == "__main__":
