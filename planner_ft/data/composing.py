@@ -93,8 +93,11 @@ class Composer:
                         self.effects.append((BODY, number, effect))
             for call in drawing.bound.limits:
                 if not call.label or call.label in drawing.labels:
-                    effect = Effect(self.planned)
-                    effect.limit(drawing.vocabulary, call.name, drawing.given(call))
+                    effect, given = Effect(self.planned), drawing.given(call)
+                    titles = str(given.pop("of", "")).split()
+                    named = [at for at, one in enumerate(self.planned) if one.task.title in titles]
+                    given |= {"scope": "task"} if titles else {}
+                    effect.limit(drawing.vocabulary, call.name, given, named)
                     self.effects.append((BODY, number, effect))
 
     def _fill_slots(self) -> None:

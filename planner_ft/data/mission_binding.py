@@ -84,6 +84,10 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
     for key in (key for line in lines if not line.label for key in line.objects):
         if base_of(key) == "T" and key not in surely:
             raise TemplateError(f"{{{key}}} is needed, and not every alternative says it")
+    of = (str(one.value) for call in limits for one in call.arguments if one.name == "of")
+    for title in itertools.chain(*map(str.split, of)):
+        if title not in vocabulary.task:
+            raise TemplateError(f"there is no task {title} to limit")
     owners: Owners = {}
     for task, fills in ((line.task, line.fills) for line in lines if line.task):
         owners = {fill.slot: (task, fill.parameter) for fill in reversed(fills)} | owners

@@ -294,6 +294,19 @@ def test_a_command_has_limits_of_its_own_and_docks_without_a_name():
         assert all(task["task_prompt"].endswith(asked) for task in expected["tasks"])
 
 
+def test_a_limit_of_single_tasks_stands_in_their_prompts_alone():
+    command = "Go to {P1}, then circle {T1 located}, at most {speed} as you circle, then home."
+    for _text, _tasks, expected in draws(
+        command, 'Transit P1; PerformOrbit T1; Home; speed speed of="PerformOrbit"'
+    ):
+        (limit,) = expected["constraints"]
+        assert limit.endswith(" during PerformOrbit.")
+        limited = [task["title"] for task in expected["tasks"] if "faster" in task["task_prompt"]]
+        assert limited == ["PerformOrbit"]
+    with pytest.raises(PlannerError, match="there is no task Orbit to limit"):
+        next(draws("{P1}, at most {speed}.", 'Transit P1; speed speed of="Orbit"'))
+
+
 def test_what_is_taken_back_is_said_but_not_planned():
     for text, tasks, _expected in draws(
         "Hold at {P1} for {~duration}, no, {duration}. Not {T1 bare}.",
