@@ -75,8 +75,13 @@ def grids_of(jobs: Sequence[Job], workers: int, width: int, seed: int) -> Iterat
                 ended, _rest = wait(running, None if not uses else 0, FIRST_COMPLETED)
                 for future in ended:
                     job = running.pop(future)
+                    if future.exception():
+                        print("shard failed", job[0], repr(future.exception()), flush=True)
+                        continue
                     record(job, future.result(), commit)
                     uses[job[0].with_suffix(".grid.npz")] = 0
+                if not uses:
+                    continue
                 least = min(uses.values())
                 path = rng.choice([one for one, used in uses.items() if used == least])
                 uses[path] += 1
