@@ -238,7 +238,8 @@ def _shared_words(record: dict[str, Any], vocabulary: Vocabulary, own: bool) -> 
     values = [parameters for _name, parameters in named_entries(level, record["expected"])]
     texts = (leaf for leaf in _leaves(values) if isinstance(leaf, str))
     found = dict.fromkeys(word for text in texts for word in _WORD.findall(text))
-    shared = [word for word in found if word in prompt and word.lower() not in meant]
+    # Plurals are replaced too, and titles stay.
+    shared = [w for w in found if w in prompt and not {w.lower(), w.lower() + "s"} & meant]
     return [w for w in shared if own or w in things or (w[0].isupper() and not w.isupper())]
 
 

@@ -61,7 +61,7 @@ def test_a_word_is_replaced_wherever_it_stands_and_nothing_else_is() -> None:
 
 def test_words_of_titles_stay_however_these_are_written() -> None:
     locate, hold = (VOCABULARY.task[one["title"]] for one in MISSION["expected"]["tasks"])
-    for title in ("find-trawler", "find_trawler", "sea.trawler", "Find Trawler"):
+    for title in ("find-trawler", "find_trawler", "sea.trawler", "Find Trawler", "Find trawlers"):
         vehicle = replace(VOCABULARY, tasks=(replace(locate, title=title), hold))
         tasks = [{**MISSION["expected"]["tasks"][0], "title": title}]
         mission = {**MISSION, "expected": {**MISSION["expected"], "tasks": tasks}}
