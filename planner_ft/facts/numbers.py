@@ -317,7 +317,11 @@ def rows_of_sizes(text: str) -> list[list[Number]]:
 
 def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
     """Bare numbers in the unit of a like number before: "ten minutes here and five there"."""
-    for before, number in itertools.pairwise(_plain(row)) if unit in ("s", "m") else ():
-        like = before.said and 1 / MOST_TIMES < number.said / before.said < MOST_TIMES
-        if number.unit is None and before.unit == unit and like and not number.counts:
-            yield replace(number, value=number.said * before.factor, unit=unit, rank=AS_BEFORE)
+    before: Number | None = None
+    for number in _plain(row) if unit in ("s", "m") else ():
+        if number.unit == unit:
+            before = number
+        elif before and before.said and number.unit is None and not number.counts:
+            if 1 / MOST_TIMES < number.said / before.said < MOST_TIMES:
+                value = number.said * before.factor
+                yield replace(number, value=value, unit=unit, rank=AS_BEFORE)

@@ -106,6 +106,7 @@ class Facts:
                 )
                 if not (one.counts and not counted)
                 and one.start not in certain
+                and not (one.rank == AS_BEFORE and one.start in inside)
                 and abs(one.value) < LARGEST
             )
         return self._numbers[unit]
