@@ -145,12 +145,13 @@ def _line(step: grammar.Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
         name, value, base = argument.name, str(argument.value), base_of(str(argument.value))
         if argument.kind == "unused":
             continue
-        if name == "near":
+        own = name in task.by_name
+        if name == "near" and not own:
             line = line._replace(near=value)
-        elif name == "part":
+        elif name == "part" and not own:
             text = value if argument.kind == "literal" else f"{{{value}}}"
             line = line._replace(part=grammar.parse_text(text))
-        elif name == "spot" and name not in task.by_name:
+        elif name == "spot" and not own:
             line = line._replace(spot=value)
         elif not name and is_formula(value):
             line.objects.append(value)

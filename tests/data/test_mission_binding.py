@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -10,7 +11,7 @@ from planner_ft.data.mission_binding import Bound, bind
 from planner_ft.data.missions import mission_sampler
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template
-from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary import Parameter, load_vocabulary
 
 USV = load_vocabulary()
 LISTS = mission_sampler(USV).words
@@ -50,6 +51,15 @@ def test_what_fills_a_task(
     ]
     assert sorted(line.slots()) == slots.split()
     assert line.here == (" here" in plan) and line.near == ("T2" if "near=" in plan else "")
+
+
+def test_a_parameter_may_be_called_as_an_argument_of_the_grammar_is() -> None:
+    dock = USV.task["DockingApproach"]
+    more = replace(dock, parameters=(*dock.parameters, Parameter("part", "text")))
+    vehicle = replace(USV, tasks=tuple(more if one is dock else one for one in USV.tasks))
+    template = Template("made-1", "train", "Dock at {P1}.", 'DockingApproach P1 part="bow"', "a:1")
+    (line,) = bind(template, vehicle, LISTS).lines
+    assert [(one.parameter.name, one.value) for one in line.fills] == [("part", "bow")]
 
 
 def test_owners_kinds_and_places_of_slots() -> None:
