@@ -96,14 +96,15 @@ class Input:
         lengths = {number.value for number in facts.numbers("m") if number.value > 0}
         lengths |= {value for value in self._own("m") if value > 0}
         lengths |= {length * factor for length in set(lengths) for factor in self._factors}
-        stated = (_point((place.x, place.y)) for place in facts.positions)
+        stated = [_point((place.x, place.y)) for place in facts.positions]
         places = dict.fromkeys((*self._places, *stated, home))
         unread = facts.unread or _UNREAD_SHAPES.search(facts.text)
         if unread or len(lengths) > MOST_LENGTHS or len(places) > MOST_PLACES:
             return None
         angles = (*facts.bearings, *facts.numbers("deg"))
         bearings = {number.value % 360 for number in angles} | set(self._own("deg"))
-        centres = tuple(place for place in places if place != home or place in self._places)
+        meant = self._places if self.is_task else (*self._places, *stated)
+        centres = tuple(place for place in places if place != home or place in meant)
         # An area is the task's own where no other lengths are stated.
         own = self.parameters if lengths <= set(self._own("m")) else {}
         width, length, spacing = (

@@ -322,6 +322,8 @@ def test_sides_of_an_area_follow_from_its_corners() -> None:
     source = read_input({"prompt": "Depth grid from [20, 20] to [120, 80]."}, USV)
     assert {100, 60} <= set(source.values(survey["width"]))
     assert not {100, 60} & set(source.values(survey["spacing"]))
+    from_home = read_input({"prompt": "Sound the basin between [0,0] and [80,60]."}, USV)
+    assert {80, 60} <= set(from_home.values(survey["width"]))
 
 
 def test_places_that_are_worked_out_lie_as_far_off_as_the_numbers_reach() -> None:
