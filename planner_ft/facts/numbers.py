@@ -321,7 +321,7 @@ def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
     for number in _plain(row) if unit in ("s", "m") else ():
         if number.unit == unit:
             before = number
-        elif before and before.said and number.unit is None and not number.counts:
-            if 1 / MOST_TIMES < number.said / before.said < MOST_TIMES:
-                value = number.said * before.factor
-                yield replace(number, value=value, unit=unit, rank=AS_BEFORE)
+        if not before or not before.said or number.unit is not None or number.counts:
+            continue
+        if 1 / MOST_TIMES < number.said / before.said < MOST_TIMES:
+            yield replace(number, value=number.said * before.factor, unit=unit, rank=AS_BEFORE)
