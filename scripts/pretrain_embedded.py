@@ -4,7 +4,7 @@
     python scripts/pretrain_embedded.py --work /tmp/embedded --export planner_ft/candidates/embedded
 
 The first command can be killed and started again at any time. The second writes the newest
-checkpoint as a model folder. On a GPU: --width 1024 --batch-tokens 65536 --workers 14, and
+checkpoint as a model folder. On a GPU: --width 1024 --batch-tokens 32768 --workers 14, and
 --seconds to end after a time.
 """
 

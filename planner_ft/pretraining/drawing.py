@@ -64,27 +64,32 @@ def make_grid(job: tuple[Job, int]) -> dict[str, int]:
 
 
 def grids_of(jobs: Sequence[Job], workers: int, width: int, seed: int) -> Iterator[Grid]:
-    """The corpus as grids, endless: processes write them while a model is trained on those that are
-    ready, the least used first.
+    """The corpus as grids, endless: processes write those that are missing while a model is trained
+    on those that are ready, the least used first. A shard that cannot be drawn is told and passed
+    over; raises its error where there is no other.
     """
-    commit, uses, rng = source_commit()["commit"], dict[Path, int](), Random(seed)
+    paths = {job: job[0].with_suffix(".grid.npz") for job in jobs}
+    uses = {path: 0 for path in paths.values() if path.is_file()}
+    commit, rng = source_commit()["commit"], Random(seed)
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
-        running = {pool.submit(make_grid, (job, width)): job for job in jobs}
+        missing = (job for job, path in paths.items() if path not in uses)
+        running = {pool.submit(make_grid, (job, width)): job for job in missing}
         try:
             while True:
-                ended, _rest = wait(running, None if not uses else 0, FIRST_COMPLETED)
+                ended, _rest = wait(running, 0 if uses else None, FIRST_COMPLETED)
                 for future in ended:
-                    job = running.pop(future)
-                    if future.exception():
-                        print("shard failed", job[0], repr(future.exception()), flush=True)
-                        continue
-                    record(job, future.result(), commit)
-                    uses[job[0].with_suffix(".grid.npz")] = 0
-                if not uses:
-                    continue
-                least = min(uses.values())
-                path = rng.choice([one for one, used in uses.items() if used == least])
-                uses[path] += 1
-                yield read_grid(path)
+                    job, error = running.pop(future), future.exception()
+                    if error:
+                        print(f"{job[0].name}: {error!r}", flush=True)
+                    if error and not running and not uses:
+                        raise error
+                    if not error:
+                        record(job, future.result(), commit)
+                        uses[paths[job]] = 0
+                if uses:
+                    least = min(uses.values())
+                    path = rng.choice([one for one, used in uses.items() if used == least])
+                    uses[path] += 1
+                    yield read_grid(path)
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -101,12 +101,19 @@ def test_seconds_end_a_run_and_none_is_spent_before_the_first_step() -> None:
     assert Budget(SETTINGS).spent(SETTINGS.tokens * 2) == 1.0
 
 
-def test_grids_are_drawn_while_they_are_used(tokenizer: Any, tmp_path: Path) -> None:
+def test_grids_are_drawn_while_they_are_used_and_found_again(
+    tokenizer: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     tokenizer.save_pretrained(tmp_path / "tokenizer")
-    paths = [tmp_path / f"shard-{number}.npz" for number in range(2)]
-    jobs = [(path, tmp_path / "tokenizer", 3, 8, 1024, Mixture(0.5)) for path in paths]
-    grids = grids_of(jobs, workers=1, width=1024, seed=0)
-    drawn = [next(grids) for _ in range(3)]
+    job = (tmp_path / "shard-0.npz", tmp_path / "tokenizer", 3, 8, 1024, Mixture(0.5))
+    broken = (tmp_path / "shard-1.npz", tmp_path / "none", 3, 8, 1024, Mixture(0.5))
+    grids = grids_of([job, broken], workers=1, width=1024, seed=0)
+    drawn = [next(grids) for _ in range(2)]
     grids.close()
-    assert all(grid.tokens for grid in drawn)
-    assert paths[0].with_suffix(".json").is_file()
+    assert all(grid.tokens for grid in drawn) and (tmp_path / "shard-0.json").is_file()
+    written = (tmp_path / "shard-0.grid.npz").stat().st_mtime_ns
+    assert next(grids_of([job], workers=1, width=1024, seed=0)).tokens == drawn[0].tokens
+    assert (tmp_path / "shard-0.grid.npz").stat().st_mtime_ns == written
+    with pytest.raises(Exception, match="none"):
+        next(grids_of([broken], workers=1, width=1024, seed=0))
+    assert "shard-1.npz" in capsys.readouterr().out
