@@ -24,7 +24,7 @@ KINDS = (
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 POSITION = rf"\[\s*{NUMBER}\s*,\s*{NUMBER}\s*\]"
 READ = {
-    "polygon": rf"{POSITION}(?:\s*,\s*{POSITION})+",
+    "polygon": rf"{POSITION}(?:\s*,\s*{POSITION}){{2,}}",
     "position": POSITION,
     "distance": NUMBER,
     "speed": NUMBER,

@@ -81,7 +81,11 @@ def test_a_limit_of_some_tasks_names_them() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["The vehicle stays near [0, 0].", "Keep 70 m from it.", "", "The mission is short."]
+    "text",
+    [
+        *("The vehicle stays near [0, 0].", "Keep 70 m from it.", "", "The mission is short."),
+        "The vehicle stays outside [10, 20], [30, 40].",  # Two corners are no area.
+    ],
 )
 def test_other_sentences_are_no_limits(text) -> None:
     assert read_limit(text, USV) is None
