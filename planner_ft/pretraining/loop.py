@@ -85,22 +85,22 @@ def new_model(settings: PretrainSettings, vocabulary_size: int, special: dict[st
 
 
 class Budget:
-    """Tokens and seconds of a run. The seconds count from its start, but none of them is spent
-    before the first step is done: it compiles the model.
+    """Tokens and seconds of a training, `earlier` seconds of which are spent. They count from the
+    start, but for the first step of a run, which compiles the model.
     """
 
-    def __init__(self, settings: PretrainSettings) -> None:
-        self.tokens, self.seconds = settings.tokens, settings.seconds
-        self.started, self.begun = time.monotonic(), float("inf")
+    def __init__(self, settings: PretrainSettings, earlier: float = 0.0) -> None:
+        self.tokens, self.seconds, self.earlier = settings.tokens, settings.seconds, earlier
+        self.started, self.compiled = time.monotonic(), float("inf")
 
     def spent(self, tokens: int) -> float:
         """Share of the budget that is spent behind `tokens` tokens, 0 to 1."""
-        used = time.monotonic() - self.begun
-        if not self.seconds or used < 0:
-            return min(1.0, tokens / self.tokens)
-        return min(
-            1.0, max(tokens / self.tokens, used / (self.started + self.seconds - self.begun))
-        )
+        share = tokens / self.tokens
+        if self.seconds:
+            running = time.monotonic() - self.compiled
+            whole = self.seconds - (self.compiled - self.started if running >= 0 else 0.0)
+            share = max(share, (self.earlier + max(0.0, running)) / max(whole, 1e-9))
+        return min(1.0, share)
 
 
 def learning_rate(settings: PretrainSettings, done: float) -> float:
@@ -111,9 +111,18 @@ def learning_rate(settings: PretrainSettings, done: float) -> float:
 
 
 def batches(
-    shards: list[Path], settings: PretrainSettings, pad: int, skip: int
-) -> Iterator[Rows | Row]:
-    """Endless batches over the shards, in order; the first `skip` batches are passed over."""
+    shards: list[Path],
+    settings: PretrainSettings,
+    pad: int,
+    skip: int,
+    grids: Iterator[Grid] | None = None,
+) -> Iterator[Rows | Row | Grid]:
+    """Endless batches, of `grids` where these are given, else over the shards, in order; there the
+    first `skip` batches are passed over.
+    """
+    if grids is not None:
+        yield from grid_batches(grids, settings.batch_tokens // settings.width)
+        return
     number, epoch = 0, 0
     while True:
         for index, shard in enumerate(shards):
@@ -231,15 +240,10 @@ def pretrain(
     optims = optimizers(model, settings)
     matrices = layer_matrices(model)
     state = _restore(folder, model, optims)
-    body = model.model
+    body, drawn = model.model, batches(shards, settings, pad, state["step"], grids)
     if settings.compile:
         body = torch.compile(model.model, dynamic=grids is None)
-    drawn: Iterator[Rows | Row | Grid] = (
-        grid_batches(grids, settings.batch_tokens // settings.width)
-        if grids
-        else batches(shards, settings, pad, state["step"])
-    )
-    budget, saved = Budget(settings), time.monotonic()
+    budget, saved = Budget(settings, state["seconds"]), time.monotonic()
     begin_tokens, losses = state["tokens"], list[Tensor]()
     for rows in drawn:
         factor = learning_rate(settings, budget.spent(state["tokens"]))
@@ -247,10 +251,7 @@ def pretrain(
             for group in optim.param_groups:
                 group["lr"] = factor * peak
         with rounded(matrices) if settings.four_bit else nullcontext():
-            if isinstance(rows, Grid):
-                loss = grid_loss(model, body, rows)
-            else:
-                loss = completion_loss(model, body, rows, rank, world)
+            loss = _loss(model, body, rows, rank, world)
             torch.autograd.backward(loss)
         losses.append(_summed(model, loss.detach(), world))
         torch.nn.utils.clip_grad_norm_(model.parameters(), settings.gradient_clip)
@@ -260,7 +261,7 @@ def pretrain(
         state["step"] += 1
         state["tokens"] += rows.tokens
         if len(losses) == 1:
-            budget.begun = time.monotonic()
+            budget.compiled = time.monotonic()
         share = budget.spent(state["tokens"])
         done = share >= 1.0
         if rank == 0 and (state["step"] % 20 == 0 or done):
@@ -275,6 +276,12 @@ def pretrain(
         if done:
             break
     return {**state, "loss": _mean(losses[-50:]), "settings": asdict(settings)}
+
+
+def _loss(model: Any, body: Any, rows: Rows | Row | Grid, rank: int, world: int) -> Tensor:
+    if isinstance(rows, Grid):
+        return grid_loss(model, body, rows)
+    return completion_loss(model, body, rows, rank, world)
 
 
 def _mean(losses: list[Tensor]) -> float:

@@ -108,7 +108,7 @@ def test_labelled_values_of_missions_have_evidence() -> None:
     curated = [record for split in splits for record in read_jsonl(f"data/mission/{split}.jsonl")]
     assert nobodys("mission", curated) == (0, 615)
     missed, judged = nobodys("mission", list(sample_missions(5, 300)))
-    assert missed <= judged / 200  # Sums that are told in words are not worked out.
+    assert missed <= judged / 200  # Sums in words ("from ten to half past") are not computed.
 
 
 @pytest.mark.parametrize("split", ["train", "test"])

@@ -92,13 +92,18 @@ def test_a_model_learns_on_grids(shard: Path, tokenizer: Any, tmp_path: Path) ->
     assert after < 0.9 * before
 
 
-def test_seconds_end_a_run_and_none_is_spent_before_the_first_step() -> None:
-    budget = Budget(replace(SETTINGS, tokens=1000, seconds=1000.0))
+def test_seconds_end_a_training_and_the_first_step_of_a_run_spends_none() -> None:
+    settings = replace(SETTINGS, tokens=1000, seconds=1000.0)
+    budget, resumed = Budget(settings), Budget(settings, earlier=600.0)
     assert budget.spent(100) == 0.1
-    budget.started = time.monotonic() - 900
-    budget.begun = time.monotonic() - 400
-    assert budget.spent(100) == pytest.approx(0.8, abs=0.01)
-    assert Budget(SETTINGS).spent(SETTINGS.tokens * 2) == 1.0
+    assert resumed.spent(100) == pytest.approx(0.6)
+    for one in (budget, resumed):
+        one.started, one.compiled = time.monotonic() - 300, time.monotonic() - 200
+    assert budget.spent(100) == pytest.approx(200 / 900, abs=0.01)
+    assert resumed.spent(100) == pytest.approx(800 / 900, abs=0.01)
+    late = Budget(replace(settings, seconds=50.0))
+    late.started, late.compiled = time.monotonic() - 90, time.monotonic() - 10
+    assert late.spent(0) == 1.0
 
 
 def test_grids_are_drawn_while_they_are_used_and_found_again(
