@@ -6,13 +6,16 @@ They are the canonical sentences among the plan's constraints (planner_ft.vocabu
 from __future__ import annotations
 
 import copy
+import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.language import read_clauses
+from planner_ft.document.ontology import named_places
 from planner_ft.facts import WAYPOINT, Facts, Span, read
 from planner_ft.planning.frame import frame_of
 from planner_ft.planning.limits import holds_for, limits_in, time_left
+from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.limits import Limit, Limits, load_limits
 
@@ -25,8 +28,28 @@ def limits_of(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[
     """The limits of a plan document as its key `limits` has them, without the words."""
     known = load_limits(vocabulary)
     found = limits_in(list(document.get("constraints", ())), known)
-    tasks = document["tasks"]
-    return [_entry(limit, known, tasks) for limit in found]
+    placed = [_placed(limit, document, vocabulary) for limit in found]
+    return [_entry(limit, known, document["tasks"]) for limit in placed]
+
+
+def _placed(limit: Limit, document: Mapping[str, Any], vocabulary: Vocabulary) -> Limit:
+    """The limit; one that names a thing alone with the place of the one thing that ends with this
+    name: of the command, the chart, or what the operator has located.
+    """
+    if "object" not in limit.values or "position" in limit.values:
+        return limit
+    named = [*document.get("structures", {}).items(), *document.get("located", {}).items()]
+    for words, place in named_places(frame_of(document).spoken, vocabulary):
+        named.append((words, [place.x, place.y]))
+    name = f" {_bare(limit.values['object'])}"
+    places = [at for words, at in named if f" {_bare(words)}".endswith(name)]
+    if not places or any(at != places[0] for at in places):
+        return limit
+    return dataclasses.replace(limit, values={**limit.values, "position": places[0]})
+
+
+def _bare(name: str) -> str:
+    return ARTICLE.sub("", name.strip()).casefold()
 
 
 def with_words(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:

@@ -30,6 +30,11 @@ _PLACED = re.compile(
     r"\s*,?\s*(?:(?:is|lying|located|somewhere|right|last seen|centred|centered)\s+)?"
     r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
 )
+_BESIDE = re.compile(
+    r"\s*(?:,?\s*(?:(?:is|are|lies|lying|located|anchored|moored|right|last seen)\s+)?"
+    r"(?:at|near|around|in|on|by)\s*|(?=[\[(\d−–-]))[\[(]?\s*"
+)
+"""What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
@@ -121,17 +126,28 @@ def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Posit
 
 def _words_before(text: str, place: int, named: list[Span]) -> str:
     """The name that stands before coordinates; empty without one."""
-    start = _before(text, place, named)
-    return next((text[one:end] for one, end in reversed(named) if one == start), "")
+    for start, end in reversed(named):
+        if end <= place <= end + FARTHEST and _BESIDE.fullmatch(text, end, place):
+            return text[start:end]
+    return ""
 
 
 def is_thing(words: str, vocabulary: Vocabulary) -> bool:
     """Whether a noun phrase names a thing in the water, and not a place of it: its last word, or
     the one before "of", tells. A mooring buoy is a thing, the middle of the channel is a place.
     """
+    return not _ends_with("water", words, vocabulary)
+
+
+def stands(words: str, vocabulary: Vocabulary) -> bool:
+    """Whether a noun phrase names what stands in the water or floats on it."""
+    return _ends_with("standing", words, vocabulary)
+
+
+def _ends_with(kind: str, words: str, vocabulary: Vocabulary) -> bool:
     head = re.split(r"\s+(?:of|with)\b", words.strip(), maxsplit=1)[0]
-    places = language(vocabulary).words["water"].finditer(head)
-    return not any(match.end() == len(head) for match in places)
+    found = language(vocabulary).words[kind].finditer(head)
+    return any(match.end() == len(head) for match in found)
 
 
 def _noun_phrases(text: str, spoken: Language) -> Iterator[Span]:

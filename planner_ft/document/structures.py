@@ -3,7 +3,8 @@
 A structure is a place that command or operator name as a thing: what a search looks for, what a
 task goes round, what a task prompt names beside a position, a point of a chart, what a limit keeps
 the vehicle away from. A place of the water ("waypoint", bare coordinates), a berth and the middle
-of an area or a line that is gone over are none, but for a point of the chart that nobody names.
+of an area or a line that is gone over are none, but for a point of the chart that nobody names and
+what stands in the middle of the area ("the platform").
 """
 
 from __future__ import annotations
@@ -15,13 +16,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.document.limits import limits_of
-from planner_ft.document.ontology import is_thing, named_places
+from planner_ft.document.ontology import is_thing, named_places, stands
 from planner_ft.document.track import Leg, Point, TaskEntry, circle_of, place_of, point_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Vocabulary
 
-ROUND, OVER = ("orbit", "square"), ("lawnmower", "line")
+LINE = "line"
+ROUND, OVER = ("orbit", "square"), ("lawnmower", LINE)
 """Patterns of tasks that go round their place, and of those that go over it."""
 FACING = ("sweep", "pass")
 """Patterns of tasks that look at the structure that the vehicle has gone to."""
@@ -86,13 +88,19 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
         last = place or last
         if known is None or place is None:
             continue
-        if known.docks or (known.pattern in OVER and place not in charted):
+        things = [
+            words
+            for words, beside in named_places(task["task_prompt"], vocabulary)
+            if math.dist((beside.x, beside.y), place) < SAME
+        ]
+        over = known.pattern in OVER and place not in charted
+        upright = known.pattern != LINE and any(stands(one, vocabulary) for one in things)
+        if known.docks or (over and not upright):
             excluded.add(place)
         if known.pattern in ROUND:
             named.setdefault(place, "")
-        for words, beside in named_places(task["task_prompt"], vocabulary):
-            if math.dist((beside.x, beside.y), place) < SAME:
-                named[place] = named.get(place) or words
+        for words in things:
+            named[place] = named.get(place) or words
         if circle := circle_of(task, vocabulary):
             stated.setdefault(place, []).append(circle[1])
         elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:

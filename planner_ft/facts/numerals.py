@@ -186,6 +186,10 @@ class Row:
         words = list(self._in_words(index))
         joined = len(said) == 2 and self.gap(index + 1) == "-" and int(said[1]) != int(said[0]) + 1
         two = len(said) == 2 and said[0] != "0"
+        tenths = self._tenths(index + len(said))
+        if len(said) > 1 and tenths:  # "six zero decimal five"
+            yield float(f"{said}.{tenths}"), index + len(said) + 1 + len(tenths)
+            return
         # "Two five minute holds" may be two.
         sure = two and (said[1] == "0" or joined or self.unit(index + 2)[0] is None)
         value, after = words[0]
@@ -226,7 +230,7 @@ class Row:
                 break
             index += 1 + skip
             found.append((total + current, index))
-        decimals = self._digits(index + 1) if self.word(index) in ("point", "decimal") else ""
+        decimals = self._tenths(index)
         if decimals:
             found[-1] = total + current + float(f"0.{decimals}"), index + 1 + len(decimals)
         yield found.pop()
@@ -238,6 +242,10 @@ class Row:
         while self.word(index + len(found)) in DIGITS:
             found += DIGITS[self.word(index + len(found))]
         return found
+
+    def _tenths(self, index: int) -> str:
+        """The digits behind "point" at `index`, as figures."""
+        return self._digits(index + 1) if self.word(index) in ("point", "decimal") else ""
 
     def _splits(self, index: int) -> bool:
         """Whether one number can end before a token and another begin: "seventy / one hundred"."""

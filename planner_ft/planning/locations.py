@@ -25,7 +25,7 @@ from planner_ft.vocabulary.replay import target
 Position = tuple[float, float]
 
 PLACE_WORDS = re.compile(
-    r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>.+?)"
+    r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>[^[\d].*?)"
     r"(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)",
     re.IGNORECASE,
 )

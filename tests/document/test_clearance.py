@@ -82,6 +82,40 @@ def test_a_thing_of_the_command_is_one_where_the_plan_goes_to_it_without_its_nam
     assert not structures(document([grid], command="Map round the platform at [100, 0]."), USV)
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "A panorama at [20, 40], a third at [60, 0].",
+        "Go to [60, 9], no, I read that wrong, [60, 0] it is.",
+        "Actually the other way round, [60, 0] first.",
+        "Take a geotagged snapshot at 60,0.",
+        "Do the loop [60, 0], [60, 40] twice.",
+    ],
+)
+def test_words_before_a_position_are_not_all_things(command: str) -> None:
+    assert waypoints(document([transit(60, 0, "Go to [60, 0].")], command=command)) == [[60, 0]]
+
+
+def test_a_grid_leads_round_what_stands_in_its_middle_and_over_a_wreck() -> None:
+    lanes = [go(80, -20), go(80, 20), go(100, 20), go(100, -20), go(120, -20), go(120, 20)]
+    for name, close in (("gas platform", False), ("wreck of the barge", True)):
+        values = {"center": [100, 0], "width": 40, "length": 40, "spacing": 20}
+        prompt = f"Survey the depths around the {name} at [100, 0]."
+        grid = task("BathymetryGridSurvey", values, lanes, prompt)
+        assert (nearest(document([grid]), [100, 0]) < 9) == close
+
+
+def test_what_is_to_be_kept_clear_of_is_where_the_command_has_it() -> None:
+    command = "There is a wind turbine at 100, 0. Go to 200, 0; give the turbine a berth of 30 m."
+    limit = "The vehicle stays at least 30 m from the turbine."
+    plan = document([transit(200, 0)], command=command, constraints=[limit])
+    assert nearest(plan, [100, 0]) >= 29.5
+    assert plan["limits"][0]["values"]["position"] == [100, 0]
+    two = f"{command} The other wind turbine is at 9, 90."
+    plan = document([transit(200, 0)], command=two, constraints=[limit])
+    assert "position" not in plan["limits"][0]["values"]
+
+
 @pytest.mark.parametrize(("margin", "reached"), [(20, 40), (15, 45), (5, 50), (None, 50)])
 def test_what_is_followed_is_gone_to_no_closer_than_the_filter_lets_it(
     margin: float | None, reached: float

@@ -64,7 +64,7 @@ SAID = """
     {niner five = 95} | {one hundred = 100} {one hundred = 100} | {one = 1 *} {eighty = 80}
     {two = 2} {twenty-five metres = 25 m} | {one point five metres = 1.5 m}
     {one point zero five metres = 1.05 m} | {zero point five metres = 0.5 m}
-    {twenty point two five metres = 20.25 m} | {two decimal five m = 2.5 m} | {one = 1 *} point buoy
+    {twenty point two five metres = 20.25 m} | {two decimal five m = 2.5 m} | {six zero decimal five = 60.5} | {one = 1 *} point buoy
     {five = 5} {six metres = 6 m} | {five zero metres = 50 m} | {five = 5}-{six metres = 6 m}
     {five-seven metres = 57 m} | {five = 5} {six minute = 360 s} holds
     {seventy one hundred and eighty = 7180} | {fourty metres = 40 m} | {a tenth of a mile = 185.2 m}

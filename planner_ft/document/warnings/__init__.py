@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.track import Track
-from planner_ft.document.warnings import asked, route, said, space, values
+from planner_ft.document.warnings import asked, places, route, said, space, values
 from planner_ft.document.warnings.case import Case, Check
 from planner_ft.document.warnings.kinds import KINDS, NOTES, SERIOUS, Warning, warning
 from planner_ft.planning.frame import doubt, origin_of
@@ -59,10 +59,12 @@ CHECKS: tuple[Check, ...] = (
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
+    asked.once_for_all,
     route.performed,
     *(said.measures, said.corrected, said.bare_numbers, said.clock_times),
-    *(said.rows, said.uneven_rows, said.unvisited),
-    *(said.positions, said.limits, said.repeats, said.there_and_not, said.misnamed),
+    *(places.rows, places.uneven_rows, places.unvisited),
+    *(places.positions, said.limits, said.repeats, places.laid_otherwise),
+    *(places.there_and_not, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),
 )
 """In the order in which warnings of one kind stand."""

@@ -83,6 +83,18 @@ def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator
         yield impossible[0], 0
 
 
+def once_for_all(case: Case) -> Iterator[Warning]:
+    """A task that is asked for at several places alike ("report after each one"), and done once."""
+    titles = [task["title"] for task in case.tasks]
+    often = max(map(titles.count, {*titles} - {case.vocabulary.transit}), default=0)
+    for clause in case.typed if often > 1 else ():
+        for ask in case.spoken.asks if case.words["everywhere"].search(clause.text) else ():
+            own = [task for task in case.tasks if task["title"] in ask.tasks]
+            if len(own) == 1 and any(clause.spans(ask.said)):
+                said = quoted(clause.text.strip(" ,;"))
+                yield warning("repeat-lost", "once", own[0], about=said.casefold(), words=said)
+
+
 def ruled_out_still(case: Case) -> Iterator[Warning]:
     """A task that the command takes back at last, and that the plan has."""
     for ask, words in _taken_back(case).items():

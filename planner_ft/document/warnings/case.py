@@ -192,13 +192,18 @@ class PlanValues:
             for polygon in self.polygons
         )
 
-    def repeats(self, count: float, places: Sequence[Position]) -> bool:
-        """Whether something is done so often: an arc, each place, else any place or task."""
+    def repeats(self, count: float, places: Sequence[Position], row: Sequence[Position]) -> bool:
+        """Whether something is done so often: an arc, each place, else any place or task, and all
+        of a row of which the plan goes to one again.
+        """
         if any(near(abs(value), FULL * count) for value in self.numbers):
             return True
+        points = [item for item in self.often if is_number(item[0])]
+        visits = [sum(same_place(at, one) for one in points) for at in (*places, *row)]
+        if not places and max(visits, default=0) > 1:
+            return min(visits) >= count
         if places:
-            points = [item for item in self.often if is_number(item[0])]
-            return all(sum(same_place(at, one) for one in points) >= count for at in places)
+            return min(visits) >= count
         return any(self.often.count(item) >= count for item in set(self.often))
 
 

@@ -68,3 +68,8 @@ def quoted(words: str) -> str:
 def named(task: Mapping[str, Any]) -> str:
     """A task as sentences name it, by its `number` in the plan."""
     return f"task {task['number']}, {task['title']}"
+
+
+def lost(words: str) -> Warning:
+    """A value of the command that the plan has not."""
+    return warning("value-lost", "value", about=words.casefold(), words=words)

@@ -1,4 +1,4 @@
-"""Measures, limits, repeats and positions that the command says and the plan has not.
+"""Measures, limits and repeats that the command says and the plan has not.
 
 Facts of the text are compared with values of the plan; which words limit or repeat is data
 (planner_ft/document/english.toml).
@@ -12,15 +12,13 @@ import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
-from planner_ft.document.ontology import named_places
-from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings.case import LONGER, Case, same_place
-from planner_ft.document.warnings.kinds import Warning, quoted, warning
+from planner_ft.document.warnings.kinds import Warning, lost, quoted, warning
 from planner_ft.facts import Number, is_place, near
 from planner_ft.facts.numbers import read_times, rows_of_sizes
-from planner_ft.facts.places import is_course, lone_coordinates
+from planner_ft.facts.places import is_course
+from planner_ft.facts.rows import rows_of
 from planner_ft.facts.together import neighbours
-from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Vocabulary
 
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
@@ -36,13 +34,9 @@ NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30
 """Characters between a value and its correction."""
+SENTENCE = re.compile(r"^|[.!?;]\s")
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
-
-
-def lost(words: str) -> Warning:
-    """A value of the command that the plan has not."""
-    return warning("value-lost", "value", about=words.casefold(), words=words)
 
 
 # ---------------------------------------------------------------- numbers
@@ -130,12 +124,18 @@ def _instead(case: Case) -> list[Number]:
 def bare_numbers(case: Case) -> Iterator[Warning]:
     """Numbers without a unit that are values all the same: behind the name of a parameter
     ("radius 15"), in a row of sizes ("20x20x5"), in place of an earlier value, or at the end of a
-    clause ("give it five").
+    clause ("give it five"); and the last one that counts a parameter ("12 sectors").
     """
-    for number in (one for one in case.numbers if one.unit is None):
+    plain = [one for one in case.numbers if one.unit is None and case.wants(one.start)]
+    counted = {}
+    for number in plain:
+        if match := _counts(case.vocabulary).match(case.text, number.end):
+            counted[match[1].casefold()] = number
+    last_counted = list(counted.values())
+    for number in plain:
         clause = case.clause_at(number.start)
         inside = any(place.start <= number.start < place.end for place in case.positions)
-        if inside or not case.wants(number.start):
+        if inside:
             continue
         before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
         bare = _parameters(case.vocabulary).search(before) or SIZES.search(before)
@@ -146,7 +146,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         if last and number.value >= 2:
             kinds.append(case.words["measured"])
         ends = {match.end() for words in kinds for match in words.finditer(before)}
-        behind = len(before.rstrip()) in ends
+        behind = len(before.rstrip(" :,")) in ends or number in last_counted
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if (bare or instead or behind) and not known:
             yield lost(case.text[number.start : number.end])
@@ -158,6 +158,14 @@ def _parameters(vocabulary: Vocabulary) -> re.Pattern[str]:
     parameters = [one for task in vocabulary.tasks for one in task.parameters if one.unit]
     names = sorted({re.escape(one.name).replace("_", r"[ _]") for one in parameters})
     return re.compile(rf"(?i)\b(?:{'|'.join(names)})(?: (?:of|is|at))?\s*[:=]?\s*$")
+
+
+@functools.lru_cache(maxsize=16)
+def _counts(vocabulary: Vocabulary) -> re.Pattern[str]:
+    """The names of parameters that count, behind their value."""
+    parameters = [one for task in vocabulary.tasks for one in task.parameters]
+    names = {re.escape(one.name).replace("_", "[ _]") for one in parameters if one.unit == "count"}
+    return re.compile(rf"(?i)[ -]({'|'.join(sorted(names))})\b" if names else r"(?!)")
 
 
 def _is_measure(text: str, number: Number) -> bool:
@@ -226,100 +234,15 @@ def repeats(case: Case) -> Iterator[Warning]:
         clause = case.clause_at(start)
         if clause and case.wants(start):
             places = [one for one in case.positions if clause.start <= one.start < clause.end]
-            if not case.plan.repeats(count, places):
+            sentence = max(match.end() for match in SENTENCE.finditer(text, 0, start))
+            ahead = SENTENCE.search(text, end)
+            near_by = [
+                row
+                for row in rows_of(text, case.positions)
+                if len(row) > 1
+                and sentence <= row[0].start < (ahead.start() if ahead else len(text))
+                and (not places or set(row) & set(places))
+            ]
+            if not case.plan.repeats(count, places, near_by[-1] if near_by else ()):
                 words = text[start:end]
-                yield warning("repeat-lost", about=words.casefold(), words=words)
-
-
-# ---------------------------------------------------------------- positions
-
-
-def positions(case: Case) -> Iterator[Warning]:
-    """Single positions, and latitudes and longitudes alone, that the plan has nowhere."""
-    in_rows = {place for row in case.rows for place in row}
-    for place in case.positions:
-        if case.wants(place.start) and place not in in_rows and not case.plan.has(place):
-            yield lost(case.text[place.start : place.end])
-    for start, end in lone_coordinates(case.text):
-        words = case.text[start:end].strip()
-        if words.casefold() not in case.plan.texts:
-            yield lost(words)
-
-
-def rows(case: Case) -> Iterator[Warning]:
-    """Rows of positions that are neither the corners of an area nor a route."""
-    for row in case.rows:
-        clause = case.clause_at(row[0].start)
-        limiting = clause is not None and case.words["limit"].search(clause.text)
-        visited = all(case.plan.has(place) for place in row)
-        if not case.plan.encloses(row) and (limiting or not visited):
-            words = case.text[row[0].start : row[-1].end]
-            kind = ("limit-lost", "area") if limiting else ("value-lost", "row")
-            yield warning(*kind, about=words.casefold(), words=quoted(words))
-
-
-def uneven_rows(case: Case) -> Iterator[Warning]:
-    """A position to which the plan only goes, where it does one thing at all others of its row."""
-    done = _done_at(case) if case.rows else {}
-    for row in case.rows:
-        points = [(place.x, place.y) for place in row]
-        titles = [
-            next((done[at] for at in done if all(map(near, at, one))), None) for one in points
-        ]
-        known = [own for own in titles if own is not None]
-        bare = [place for place, own in zip(row, titles, strict=True) if not own]
-        common = set.intersection(*filter(None, known)) if any(known) else set()
-        if len(known) == len(row) and len(bare) == 1 and common:
-            where, what = shown((bare[0].x, bare[0].y)), ", ".join(sorted(common))
-            yield warning("value-lost", "uneven", about=where, titles=what, place=where)
-
-
-def _done_at(case: Case) -> dict[Point, set[str]]:
-    """The titles of the tasks at each place, but for the ways to it."""
-    done, at = dict[Point, set[str]](), None
-    for task in case.tasks:
-        at = place_of(task, case.vocabulary) or at
-        if at is not None:
-            own = {task["title"]} - {case.vocabulary.transit, case.vocabulary.locate}
-            key = next((one for one in done if all(map(near, one, at))), at)
-            done[key] = done.get(key, set()) | own
-    return done
-
-
-def unvisited(case: Case) -> Iterator[Warning]:
-    """A known place that the command names, and to which neither a task nor a limit leads."""
-    places = [place_of(task, case.vocabulary) for task in case.tasks]
-    places += [limit["values"].get("position") for limit in case.limits]
-    known = [place for place in places if place]
-    for name, at in case.document.get("structures", {}).items():
-        said = re.compile(rf"(?<!\w){re.escape(ARTICLE.sub('', name))}(?!\w)", re.IGNORECASE)
-        wanted = any(any(clause.spans(said)) and not clause.corrected for clause in case.clauses)
-        if wanted and not any(all(map(near, at, place)) for place in known):
-            yield warning("value-lost", "place", about=name.casefold(), name=name, place=shown(at))
-
-
-def there_and_not(case: Case) -> Iterator[Warning]:
-    """A position that one clause asks for and another rules out."""
-    for place in case.positions:
-        clause, at = case.clause_at(place.start), (place.x, place.y)
-        if clause is None or clause.corrected or clause.wants(place.start):
-            continue
-        same = [one for one in case.positions if one is not place]
-        same = [one for one in same if same_place(place, (one.x, one.y))]
-        others = [(case.clause_at(one.start), one) for one in same]
-        if any(other and other.wants(one.start) for other, one in others):
-            words, about = quoted(clause.text.strip(" ,;")), f"{place.x:g},{place.y:g}"
-            yield warning("contradiction", "place", about=about, place=shown(at), words=words)
-
-
-def misnamed(case: Case) -> Iterator[Warning]:
-    """A task prompt that puts one thing of the command where the command has another."""
-    said = [(words.casefold(), at) for words, at in named_places(case.text, case.vocabulary)]
-    names = {words for words, _place in said}
-    for task in case.tasks:
-        for words, place in named_places(task["task_prompt"], case.vocabulary):
-            at = place.x, place.y
-            there = {name for name, other in said if same_place(other, at)}
-            if there and words.casefold() in names - there:
-                values = {"words": words, "place": shown(at), "other": min(there)}
-                yield warning("contradiction", "misnamed", task, **values)
+                yield warning("repeat-lost", "count", about=words.casefold(), words=words)

@@ -43,6 +43,14 @@ def kinds(command: str, *tasks: dict[str, Any], limits: tuple[str, ...] = ()) ->
     return {one["kind"] for one in plan["warnings"]} & {*wanted}
 
 
+def look(sectors: int) -> dict[str, Any]:
+    turns = [step("RotateToHeading", {"yaw": 360 / sectors * at}) for at in range(sectors)]
+    return task("HorizontalPanorama", {"sectors": sectors}, turns)
+
+
+SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
+LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
+RAMP = "Visit the pier at 9,9 and the ramp at 30,9. On second thoughts leave out the ramp."
 AREA = "Go to 100,50 but never leave the area 0,0 200,0 200,200 0,200, then come home."
 PLATFORM = "Go to [100, 0] and do not go closer than 70 m to the platform at 260,80."
 AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
@@ -93,6 +101,30 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle the mast at 60,60 at 20 m. Do not circle it twice.", [orbit(360)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0), to(9, 0)], (), None),
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
+        (SHUTTLE, [to(1, 0), to(9, 0), to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
+        (SHUTTLE, [to(1, 0), *[to(9, 0), to(1, 0)] * 3], (), None),
+        (
+            "Twice up and down between 1,0 and 9,0.",
+            [to(1, 0), to(9, 0), to(1, 0)],
+            (),
+            "repeat-lost",
+        ),
+        (LOOP, [to(4, 0), to(4, 4), to(0, 4), to(4, 0), to(0, 4)], (), "repeat-lost"),
+        (LOOP, [to(4, 0), to(4, 4), to(0, 4)] * 2, (), None),
+        ("Map 50 by 50 m at 9,9, 10 m lines, east-west lines.", [grid(50, 50)], (), "value-lost"),
+        (
+            "Start in the north-east corner and map 50 by 50 m at 9,9.",
+            [grid(50, 50)],
+            (),
+            "value-lost",
+        ),
+        ("Go to the north-east corner at 9,9.", [to(9, 9)], (), None),
+        ("Look round in 6 sectors. Correction: 10 sectors.", [look(6)], (), "value-lost"),
+        ("Look round in 6 sectors. Correction: 10 sectors.", [look(10)], (), None),
+        ("Look round in 6 sectors. Wait, correction: 10.", [look(6)], (), "value-lost"),
+        (RAMP, [to(9, 9), to(30, 9)], (), "contradiction"),
+        (RAMP, [to(9, 9)], (), None),
+        ("Nothing north of y = 50 is allowed. Go to 9,80.", [to(9, 80)], (), "limit-lost"),
         ("Go to 1,5 and be home by 15:00.", [to(1, 5), to(0, 0)], (), "limit-lost"),
         ("Go home by way of 9,9.", [to(9, 9), to(0, 0)], (), None),
         ("Go to 9,9, do not go near the pontoon at 70,20.", [to(9, 9)], (), "limit-lost"),

@@ -1,0 +1,143 @@
+"""Places of the command that the plan has not, or has otherwise."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from planner_ft.document.language import Clause
+from planner_ft.document.ontology import named_places
+from planner_ft.document.track import Point, TaskEntry, place_of, shown
+from planner_ft.document.warnings.case import Case, same_place
+from planner_ft.document.warnings.kinds import Warning, lost, quoted, warning
+from planner_ft.facts import Position, near
+from planner_ft.facts.places import lone_coordinates, read_bearings
+from planner_ft.planning.locations import ARTICLE
+from planner_ft.vocabulary import Vocabulary
+
+
+def positions(case: Case) -> Iterator[Warning]:
+    """Single positions, and latitudes and longitudes alone, that the plan has nowhere."""
+    passed = {place for row in case.rows for place in row}
+    passed |= {place for _clause, _name, place in _left_out(case)}
+    for place in case.positions:
+        if case.wants(place.start) and place not in passed and not case.plan.has(place):
+            yield lost(case.text[place.start : place.end])
+    for start, end in lone_coordinates(case.text):
+        words = case.text[start:end].strip()
+        if words.casefold() not in case.plan.texts:
+            yield lost(words)
+
+
+def rows(case: Case) -> Iterator[Warning]:
+    """Rows of positions that are neither the corners of an area nor a route."""
+    for row in case.rows:
+        clause = case.clause_at(row[0].start)
+        limiting = clause is not None and case.words["limit"].search(clause.text)
+        visited = all(case.plan.has(place) for place in row)
+        if not case.plan.encloses(row) and (limiting or not visited):
+            words = case.text[row[0].start : row[-1].end]
+            kind = ("limit-lost", "area") if limiting else ("value-lost", "row")
+            yield warning(*kind, about=words.casefold(), words=quoted(words))
+
+
+def uneven_rows(case: Case) -> Iterator[Warning]:
+    """A position to which the plan only goes, where it does one thing at all others of its row."""
+    done = _done_at(case) if case.rows else {}
+    for row in case.rows:
+        points = [(place.x, place.y) for place in row]
+        titles = [
+            next((done[at] for at in done if all(map(near, at, one))), None) for one in points
+        ]
+        known = [own for own in titles if own is not None]
+        bare = [place for place, own in zip(row, titles, strict=True) if not own]
+        common = set.intersection(*filter(None, known)) if any(known) else set()
+        if len(known) == len(row) and len(bare) == 1 and common:
+            where, what = shown((bare[0].x, bare[0].y)), ", ".join(sorted(common))
+            yield warning("value-lost", "uneven", about=where, titles=what, place=where)
+
+
+def _done_at(case: Case) -> dict[Point, set[str]]:
+    """The titles of the tasks at each place, but for the ways to it."""
+    done, at = dict[Point, set[str]](), None
+    for task in case.tasks:
+        at = place_of(task, case.vocabulary) or at
+        if at is not None:
+            own = {task["title"]} - {case.vocabulary.transit, case.vocabulary.locate}
+            key = next((one for one in done if all(map(near, one, at))), at)
+            done[key] = done.get(key, set()) | own
+    return done
+
+
+def unvisited(case: Case) -> Iterator[Warning]:
+    """A known place that the command names, and to which neither a task nor a limit leads."""
+    places = [place_of(task, case.vocabulary) for task in case.tasks]
+    places += [limit["values"].get("position") for limit in case.limits]
+    known = [place for place in places if place]
+    for name, at in case.document.get("structures", {}).items():
+        said = re.compile(rf"(?<!\w){re.escape(ARTICLE.sub('', name))}(?!\w)", re.IGNORECASE)
+        wanted = any(any(clause.spans(said)) and not clause.corrected for clause in case.clauses)
+        if wanted and not any(all(map(near, at, place)) for place in known):
+            yield warning("value-lost", "place", about=name.casefold(), name=name, place=shown(at))
+
+
+def there_and_not(case: Case) -> Iterator[Warning]:
+    """A position that one clause asks for and another rules out."""
+    for place in case.positions:
+        clause, at = case.clause_at(place.start), (place.x, place.y)
+        if clause is None or clause.corrected or clause.wants(place.start):
+            continue
+        same = [one for one in case.positions if one is not place]
+        same = [one for one in same if same_place(place, (one.x, one.y))]
+        others = [(case.clause_at(one.start), one) for one in same]
+        if any(other and other.wants(one.start) for other, one in others):
+            words, about = quoted(clause.text.strip(" ,;")), f"{place.x:g},{place.y:g}"
+            yield warning("contradiction", "place", about=about, place=shown(at), words=words)
+
+
+def left_out(case: Case) -> Iterator[Warning]:
+    """A task at a thing that the command leaves out again: "on second thoughts skip the ramp"."""
+    for clause, name, place in _left_out(case):
+        for task in [one for one in case.tasks if _is_at(one, place, case.vocabulary)][:1]:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("contradiction", "ruled_out", task, about=name, words=words)
+
+
+def _left_out(case: Case) -> Iterator[tuple[Clause, str, Position]]:
+    things = list(named_places(case.text, case.vocabulary))
+    for clause in (one for one in case.clauses if one.excluded is not None):
+        match = case.words["exclusion"].search(clause.text)
+        name = ARTICLE.sub("", clause.text[match.end() :].strip(" ,;.")) if match else ""
+        for words, place in things:
+            same = name.casefold() == ARTICLE.sub("", words).casefold()
+            if same and place.start < clause.start:
+                yield clause, name, place
+
+
+def _is_at(task: TaskEntry, place: Position, vocabulary: Vocabulary) -> bool:
+    at = place_of(task, vocabulary)
+    return at is not None and same_place(place, at)
+
+
+def misnamed(case: Case) -> Iterator[Warning]:
+    """A task prompt that puts one thing of the command where the command has another."""
+    said = [(words.casefold(), at) for words, at in named_places(case.text, case.vocabulary)]
+    names = {words for words, _place in said}
+    for task in case.tasks:
+        for words, place in named_places(task["task_prompt"], case.vocabulary):
+            at = place.x, place.y
+            there = {name for name, other in said if same_place(other, at)}
+            if there and words.casefold() in names - there:
+                values = {"words": words, "place": shown(at), "other": min(there)}
+                yield warning("contradiction", "misnamed", task, **values)
+
+
+def laid_otherwise(case: Case) -> Iterator[Warning]:
+    """A corner or a direction of the lines of a survey that no task prompt has."""
+    over = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern == "lawnmower"]
+    if any(read_bearings(task["task_prompt"]) for task in over):
+        return
+    for clause in case.clauses if over else ():
+        laid = case.words["laid"].search(clause.text)
+        if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
+            yield lost(clause.text.strip(" ,;."))
