@@ -24,6 +24,8 @@ ARTICLE = 3
 """Words before a noun among which its article is."""
 NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
+IT = re.compile(r"\s+(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
+SENTENCE = re.compile(r"[.!?;]\s")
 UNKNOWN = 0.55
 """The share of unknown words from which a command may be in another language
 (benchmarks/language_check.py).
@@ -135,7 +137,22 @@ def _taken_back(case: Case) -> dict[Ask, str]:
                 last.pop(ask, None)
                 if ruled_out and clause.excluded is not None and clause.excluded >= clause.start:
                     last[ask] = quoted(clause.text.strip(" ,;"))
-    return {ask: words for ask, words in last.items() if words}
+    return {**last, **dict(_taken_back_as_it(case))}
+
+
+def _taken_back_as_it(case: Case) -> Iterator[tuple[Ask, str]]:
+    """The last task of a sentence that "skip it" rules out."""
+    said = sorted(
+        (match.start(), at)
+        for at, ask in enumerate(case.spoken.asks)
+        for match in ask.said.finditer(case.command)
+    )
+    for clause in case.typed:
+        ruled_out = case.words["exclusion"].search(clause.text)
+        if ruled_out and IT.fullmatch(clause.text, ruled_out.end()):
+            before = [(start, at) for start, at in said if start < clause.start]
+            if before and not SENTENCE.search(case.command, before[-1][0], clause.start):
+                yield case.spoken.asks[before[-1][1]], quoted(clause.text.strip(" ,;"))
 
 
 def without_words(case: Case) -> Iterator[Warning]:

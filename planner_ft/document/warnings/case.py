@@ -148,6 +148,8 @@ class PlanValues:
         said = (part for one in spoken for part in (one.value, one.said))
         self.anywhere = {*_flat(own), *base, *said}
         self.anywhere |= set(_ways([*places, *read], command))
+        if any(command.vocabulary.task[task["title"]].pattern == "sectors" for task in tasks):
+            self.anywhere.add(FULL)
         self.texts = " ".join(texts).casefold()
         self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)
 
