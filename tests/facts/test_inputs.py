@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -229,6 +230,18 @@ PERIMETER = {"task": "BathymetryGridSurvey", "parameters": GRID}
         ),
         ("Turn.", PANORAMA, {"places": ((0, 0),), "centres": ((0, 0),), "counts": (3,)}),
         ("Back off -5 m, later 0 m.", {}, {"places": ((0, 0),), "centres": ((0, 0),)}),
+        (
+            "Steer 390 degrees for 5 m.",
+            {},
+            {
+                "places": ((0, 0),),
+                "centres": ((0, 0),),
+                "lengths": (5,),
+                "bearings": (30,),
+                "counts": (5,),
+                "sizes": ((5, 5),),
+            },
+        ),
         ("Run a zigzag.", {}, None),
         ("Go to x 40, then on.", {}, None),
         ("Go three furlongs.", {}, None),
@@ -240,6 +253,15 @@ def test_what_waypoints_are_derived_from(prompt: str, record: Any, given: Any) -
     found = read_input({"prompt": prompt, **record}, USV).ground
     empty = {**dict.fromkeys(("lengths", "bearings", "counts", "sizes"), ()), **(given or {})}
     assert found == (Ground(**empty) if given is not None else None)
+
+
+def test_lengths_of_a_task_in_another_unit_are_metres() -> None:
+    orbit = USV.task["PerformOrbit"]
+    far = replace(orbit.by_name["radius"], unit="km")
+    vehicle = replace(USV, tasks=(replace(orbit, parameters=(orbit.by_name["center"], far)),))
+    own = {"task": "PerformOrbit", "parameters": {"center": [5, 5], "radius": 0.5}}
+    ground = read_input({"prompt": "Circle it.", **own}, vehicle).ground
+    assert ground is not None and ground.lengths == (500,)
 
 
 def test_nine_lengths_and_twelve_places_are_not_too_many() -> None:
@@ -342,6 +364,7 @@ def test_places_that_are_worked_out_lie_as_far_off_as_the_numbers_reach() -> Non
         ("Go to 40,188, then 16 m on heading 095.", (55.94, 186.61), True),
         ("Go to 40,188, then 16 m at 095.", (55.94, 186.61), True),
         ("Go to 40,188, then 16 m on 95 degrees.", (55.94, 186.61), True),
+        ("Go to 40,188, then 16 m on 390 degrees.", (48, 201.86), True),
         ("Go to 40,188, then 16 m north.", (40, 204), True),
         ("Go 16 m north.", (0, 16), True),
         ("Map between [-119, 85] and [10, 5].", (-54.5, 45), True),

@@ -117,6 +117,14 @@ def test_a_place_that_follows_is_named_only_where_a_value_is_lost() -> None:
     ]
 
 
+@pytest.mark.parametrize(("x", "count"), [(70, 0), (71, 1)])
+def test_a_waypoint_follows_from_the_one_before_it(x: float, count: int) -> None:
+    places = [(30, 40), (30, 47), (50, 47), (50, 54), (x, 54)]
+    way = [step("GoToXY", {"x": east, "y": north}) for east, north in places]
+    prompt = "Go to [30, 40], then twice 7 m north and 20 m east."
+    assert len(texts(document([to(*way, prompt=prompt)], command=COMMAND))) == count
+
+
 def test_a_command_with_what_could_not_be_read_has_a_note() -> None:
     kinds = [one["kind"] for one in document([to(GO)], command=COMMAND)["warnings"]]
     assert "unread-command" not in kinds
