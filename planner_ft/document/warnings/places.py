@@ -20,6 +20,7 @@ def positions(case: Case) -> Iterator[Warning]:
     """Single positions, and latitudes and longitudes alone, that the plan has nowhere."""
     passed = {place for row in case.rows for place in row}
     passed |= {place for _clause, _name, place in _left_out(case)}
+    passed |= {place for behind, place in _ruled_out(case) if place.start < behind.start}
     for place in case.positions:
         if case.wants(place.start) and place not in passed and not case.plan.has(place):
             yield lost(case.text[place.start : place.end])
@@ -82,17 +83,28 @@ def unvisited(case: Case) -> Iterator[Warning]:
 
 
 def there_and_not(case: Case) -> Iterator[Warning]:
-    """A position that one clause asks for and another rules out."""
+    """A position that one clause asks for and another rules out; where that is said last, one that
+    the plan has.
+    """
+    for place, other in _ruled_out(case):
+        clause = case.clause_at(place.start)
+        if clause and (other.start > place.start or case.plan.has(place)):
+            words, about = quoted(clause.text.strip(" ,;")), f"{place.x:g},{place.y:g}"
+            where = shown((place.x, place.y))
+            yield warning("contradiction", "place", about=about, place=where, words=words)
+
+
+def _ruled_out(case: Case) -> Iterator[tuple[Position, Position]]:
+    """(place, same place) of which a clause rules the first out and another asks for the second."""
     for place in case.positions:
-        clause, at = case.clause_at(place.start), (place.x, place.y)
+        clause = case.clause_at(place.start)
         if clause is None or clause.corrected or clause.wants(place.start):
             continue
-        same = [one for one in case.positions if one is not place]
-        same = [one for one in same if same_place(place, (one.x, one.y))]
-        others = [(case.clause_at(one.start), one) for one in same]
-        if any(other and other.wants(one.start) for other, one in others):
-            words, about = quoted(clause.text.strip(" ,;")), f"{place.x:g},{place.y:g}"
-            yield warning("contradiction", "place", about=about, place=shown(at), words=words)
+        for one in case.positions:
+            other = case.clause_at(one.start)
+            same = one is not place and same_place(place, (one.x, one.y))
+            if same and other and other.wants(one.start):
+                yield place, one
 
 
 def left_out(case: Case) -> Iterator[Warning]:

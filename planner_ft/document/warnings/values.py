@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.document.warnings.asked import UNKNOWN
@@ -14,6 +14,7 @@ from planner_ft.facts import (
     WAYPOINT,
     Evidence,
     Facts,
+    Position,
     is_number,
     is_place,
     read,
@@ -52,7 +53,7 @@ def unsaid(case: Case) -> Iterator[Warning]:
             if source["kind"] == "model":
                 if evidence.given is False:
                     yield warning("value-not-said", "unsaid", **about)
-            elif is_number(value) and _is_coordinate(evidence, said):
+            elif is_number(value) and _is_coordinate(evidence, said, case.positions):
                 yield warning("value-not-said", "coordinate", **about)
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
@@ -92,9 +93,8 @@ def _contradicts(prompt: Facts, value: Any, parameter: Parameter) -> bool:
     return other and prompt.evidence(value, parameter, SCORING).given is False
 
 
-def _is_coordinate(evidence: Evidence, said: Facts) -> bool:
+def _is_coordinate(evidence: Evidence, said: Facts, places: Sequence[Position]) -> bool:
     """Whether a number stands in the command as a part of positions and nowhere else."""
-    places = [one for one in said.positions if one.certain]
     return bool(evidence.mentions) and all(
         BARE.fullmatch(said.text, start, end)
         and any(place.start <= start and end <= place.end for place in places)

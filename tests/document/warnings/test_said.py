@@ -161,6 +161,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Hold at 9,9 for 2:30.", [to(9, 9), hold(150)], (), None),
         ("Come home, but do not come home.", [to(0, 0)], (), "contradiction"),
         ("Go to [9, 9]. Do not go to [9, 9].", [to(9, 9)], (), "contradiction"),
+        ("Hold at [9, 9]. Er, [5, 5], not [9, 9].", [to(5, 5), hold(60)], (), None),
+        ("Hold at [9, 9]. Not at [9, 9].", [to(9, 9), hold(60)], (), "contradiction"),
         ("Do not stop at 9,9, and come home.", [to(0, 0)], (), None),
     ],
 )

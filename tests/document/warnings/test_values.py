@@ -128,3 +128,14 @@ def test_a_waypoint_follows_from_the_one_before_it(x: float, count: int) -> None
 def test_a_command_with_what_could_not_be_read_has_a_note() -> None:
     kinds = [one["kind"] for one in document([to(GO)], command=COMMAND)["warnings"]]
     assert "unread-command" not in kinds
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [("Do three lengths between 20,0 and 20,80.", 2), ("Map 20 by 80 m at 20,80.", 0)],
+)
+def test_a_coordinate_is_no_measure(command: str, told: int) -> None:
+    values = {"center": [20, 0], "width": 20, "length": 80, "spacing": 10}
+    grid = task("BathymetryGridSurvey", values, None, "Map it.")
+    said = texts(document([grid], command=command), "value-not-said")
+    assert sum("width" in one or "length" in one for one in said) == told
