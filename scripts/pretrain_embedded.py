@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.pretraining.corpus import Mixture
-from planner_ft.pretraining.drawing import Job, grids_of, shards_of
+from planner_ft.pretraining.grids import Job, grids_of, shards_of
 from planner_ft.pretraining.loop import PretrainSettings
 from planner_ft.support.files import write_json
 from planner_ft.vocabulary import load_vocabulary
@@ -76,7 +76,7 @@ def initialise(model: Any, init: Path) -> None:
     """
     from transformers import LlamaForCausalLM
 
-    from planner_ft.pretraining.weights import deepened
+    from planner_ft.pretraining.model import deepened
 
     weights = LlamaForCausalLM.from_pretrained(init, dtype=model.dtype).state_dict()
     try:
@@ -237,9 +237,7 @@ def main() -> None:
     shards = [] if grids else shards_of(jobs, workers)
     if grids:
         model.to(arguments.device)
-    trained = pretrain(
-        model, shards, settings, pad=special["pad"], folder=arguments.work, grids=grids
-    )
+    trained = pretrain(model, shards, settings, folder=arguments.work, grids=grids)
     print(trained, flush=True)
 
 

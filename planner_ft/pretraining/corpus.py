@@ -1,4 +1,4 @@
-"""The pretraining corpus: synthetic samples of both levels, rendered, tokenised, batched by length.
+"""The pretraining corpus: synthetic samples of both levels, rendered and tokenised.
 
 Only the training families of the generators are drawn: the curated mission set and the task level's
 `test_unseen` families never enter.
@@ -21,7 +21,7 @@ from planner_ft.data.task.mission_tasks import mission_tasks
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.data.varying import with_unfamiliar_words
-from planner_ft.pretraining.packs import IGNORE, Pack, arrays, draw_packs, packs_in
+from planner_ft.pretraining.packs import Pack, arrays, draw_packs, packs_in
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
 from planner_ft.support.errors import PlannerError
@@ -38,8 +38,6 @@ DRILL_SEED = 70_000_000
 EMPHASIS_SEED = 90_000_000
 CUT = 0.6
 """Share of the samples with a working that end behind it: the plan itself has little to teach."""
-WIDTH_STEP = 8
-"""Batches are this many positions wide, or a multiple."""
 Sample = tuple[NDArray[np.int64], int]
 """Token ids and the length of the prompt among them."""
 
@@ -54,18 +52,6 @@ class Encoded:
     ids: NDArray[np.int64]
     prompt: int
     worked: int | None = None
-
-
-@dataclass(frozen=True)
-class Rows:
-    """A batch of samples, padded on the right: int64 arrays of shape (samples, width).
-
-    `labels` are IGNORE outside answers; `tokens` counts without padding.
-    """
-
-    input_ids: NDArray[np.int64]
-    labels: NDArray[np.int64]
-    tokens: int
 
 
 Drawn = tuple[Level, dict[str, Any], Vocabulary]
@@ -257,40 +243,3 @@ def load_shard(path: Path) -> tuple[list[Sample], list[Pack]]:
     with np.load(path) as data:
         parts = np.split(data["ids"].astype(np.int64), np.cumsum(data["lengths"])[:-1])
         return list(zip(parts, map(int, data["prompts"]), strict=True)), packs_in(data)
-
-
-def batched(samples: list[Sample], batch_tokens: int, pad: int, seed: int) -> list[Rows]:
-    """Batches of about `batch_tokens` tokens, samples of like length together, in a drawn order.
-
-    On a CPU this beats packing: packed rows spend half of the time on tokens of other samples.
-    """
-    rng = np.random.default_rng(seed)
-    by_width: dict[int, list[int]] = {}
-    for index in map(int, rng.permutation(len(samples))):
-        width = -(-len(samples[index][0]) // WIDTH_STEP) * WIDTH_STEP
-        by_width.setdefault(width, []).append(index)
-    rows, waiting = [], list[int]()
-    for width in sorted(by_width):
-        # Samples that fill no batch of their width wait for the next one.
-        members = waiting + by_width[width]
-        size = max(1, batch_tokens // width)
-        whole = len(members) // size * size
-        rows += [
-            rows_of([samples[index] for index in members[start : start + size]], width, pad)
-            for start in range(0, whole, size)
-        ]
-        waiting = members[whole:]
-    if waiting:
-        rows.append(rows_of([samples[index] for index in waiting], max(by_width), pad))
-    return [rows[index] for index in rng.permutation(len(rows))]
-
-
-def rows_of(samples: list[Sample], width: int, pad: int) -> Rows:
-    """One batch of `width` positions."""
-    shape = (len(samples), width)
-    ids, labels = np.full(shape, pad), np.full(shape, IGNORE)
-    for row, (tokens, prompt) in enumerate(samples):
-        ids[row, : len(tokens)] = tokens
-        # Labels are shifted here: position i predicts token i + 1.
-        labels[row, prompt - 1 : len(tokens) - 1] = tokens[prompt:]
-    return Rows(ids, labels, sum(len(tokens) for tokens, _prompt in samples))

@@ -1,12 +1,18 @@
-"""Rows of one width for a GPU: samples and packs stand one behind the other, and a mask keeps them
-apart. Every batch has the same shape, so the model is compiled once.
+"""The corpus in rows of one width, written by several processes: samples and packs stand one behind
+the other, kept apart on a GPU by a mask, so that every batch has the same shape and the model is
+compiled once, on a processor by the places of their parts.
 """
 
 from __future__ import annotations
 
+import dataclasses
+import gc
 from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import numpy as np
@@ -14,10 +20,14 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from planner_ft.pretraining.corpus import Sample, load_shard
+from planner_ft.pretraining.corpus import Mixture, Sample, encode_shard, load_shard
 from planner_ft.pretraining.packs import IGNORE, Pack
-from planner_ft.support.files import atomic_writer
+from planner_ft.support.files import atomic_writer, write_json
+from planner_ft.support.manifest import source_commit
+from planner_ft.vocabulary import load_vocabulary
 
+Job = tuple[Path, Path, int, int, int, Mixture]
+"""Shard, tokenizer, seed, number of samples, tokens of a sample at most, and mixture."""
 OPEN = 48
 """Rows that are filled at a time."""
 FIELDS = ("input_ids", "labels", "positions", "units", "parts")
@@ -54,6 +64,27 @@ def bias_of(units: Tensor, parts: Tensor) -> Tensor:
     same &= torch.ones(width, width, dtype=torch.bool, device=units.device).tril()
     bias = torch.zeros(same.shape, dtype=torch.bfloat16, device=units.device)
     return bias.masked_fill_(~same, float("-inf"))[:, None]
+
+
+def parts_of(grid: Grid, rank: int = 0, world: int = 1) -> list[NDArray[np.int64]]:
+    """A rank's share of the samples and packs of a grid, one behind the other without padding: ids,
+    labels and positions, shape (width,), and `parts`, shape (n, 4): where each part begins and
+    ends, and where its vocabulary does (empty for a vocabulary itself).
+
+    A rank without a share has the others' without labels: it must have gradients to sum.
+    """
+    rows = np.arange(len(grid.units))[:, None] * (int(grid.units.max()) + 1)
+    own = (grid.units > 0) & ((rows + grid.units) % world == rank)
+    kept = own if own.any() else grid.units > 0
+    labels = np.where(own, grid.labels, IGNORE)[kept]
+    units, parts = (rows + grid.units)[kept], grid.parts[kept]
+    changes = np.flatnonzero(np.diff(units, prepend=-1) | np.diff(parts, prepend=-1))
+    ends, first = np.append(changes[1:], len(units)), parts[changes] == 0
+    shared = np.maximum.accumulate(np.where(first, np.arange(len(changes)), 0))
+    shown = (np.where(first, changes, at[shared]) for at in (changes, ends))
+    cells = (grid.input_ids[kept], labels, grid.positions[kept])
+    table = np.stack([changes, ends, *shown], 1)
+    return [values.astype(np.int64) for values in (*cells, table)]
 
 
 def grid_of(samples: Sequence[Sample], packs: Sequence[Pack], width: int, seed: int) -> Grid:
@@ -145,3 +176,81 @@ def grid_batches(grids: Iterator[Grid], rows: int) -> Iterator[Grid]:
             whole = {name: np.concatenate([getattr(one, name) for one in kept]) for name in FIELDS}
             yield Grid(**{name: values[:rows] for name, values in whole.items()})
             kept = [Grid(**{name: values[rows:] for name, values in whole.items()})]
+
+
+# ---------------------------------------------------------------- drawing by several processes
+
+
+def make_shard(job: Job) -> dict[str, int]:
+    """Write one shard of the corpus (worker process)."""
+    from transformers import PreTrainedTokenizerFast
+
+    path, tokenizer, seed, count, longest, mixture = job
+    gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
+    return encode_shard(
+        path,
+        PreTrainedTokenizerFast.from_pretrained(tokenizer),
+        load_vocabulary(),
+        seed=seed,
+        count=count,
+        mixture=mixture,
+        longest=longest,
+    )
+
+
+def record(job: Job, counts: dict[str, int], commit: str | None) -> None:
+    """Write beside a shard what it holds."""
+    mixture = job[-1]
+    shares = {**dataclasses.asdict(mixture), "folder": str(mixture.folder)}
+    write_json(job[0].with_suffix(".json"), {**counts, "mixture": shares, "commit": commit})
+
+
+def shards_of(jobs: Sequence[Job], workers: int) -> list[Path]:
+    """The corpus as shard files, those that are missing written first."""
+    missing, commit = [job for job in jobs if not job[0].is_file()], source_commit()["commit"]
+    with ProcessPoolExecutor(workers) as pool:
+        for job, counts in zip(missing, pool.map(make_shard, missing), strict=True):
+            print(f"{job[0].name}: {counts}", flush=True)
+            record(job, counts, commit)
+    return [job[0] for job in jobs]
+
+
+def make_grid(job: tuple[Job, int]) -> dict[str, int]:
+    """Write one shard of the corpus as a grid (worker process)."""
+    (path, _tokenizer, seed, *_), width = job
+    counts = make_shard(job[0])
+    write_grid(path, width, seed)
+    path.unlink()
+    return counts
+
+
+def grids_of(jobs: Sequence[Job], workers: int, width: int, seed: int) -> Iterator[Grid]:
+    """The corpus as grids, endless: processes write those that are missing while a model is trained
+    on those that are ready, the least used first. A shard that cannot be drawn is told and passed
+    over; raises its error where there is no other.
+    """
+    paths = {job: job[0].with_suffix(".grid.npz") for job in jobs}
+    uses = {path: 0 for path in paths.values() if path.is_file()}
+    commit, rng = source_commit()["commit"], Random(seed)
+    with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
+        missing = (job for job, path in paths.items() if path not in uses)
+        running = {pool.submit(make_grid, (job, width)): job for job in missing}
+        try:
+            while True:
+                ended, _rest = wait(running, 0 if uses else None, FIRST_COMPLETED)
+                for future in ended:
+                    job, error = running.pop(future), future.exception()
+                    if error:
+                        print(f"{job[0].name}: {error!r}", flush=True)
+                    if error and not running and not uses:
+                        raise error
+                    if not error:
+                        record(job, future.result(), commit)
+                        uses[paths[job]] = 0
+                if uses:
+                    least = min(uses.values())
+                    path = rng.choice([one for one, used in uses.items() if used == least])
+                    uses[path] += 1
+                    yield read_grid(path)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)

@@ -1,12 +1,14 @@
 """The pretraining loop: bf16 autocast, Muon for matrices and AdamW for the rest, resumable.
 
-On a GPU it takes grids (`grids.py`), whose rows have one width. On a processor, started by torchrun
-with several processes, each takes its share of every batch: the result does not depend on their
-number, up to rounding, and a run may be resumed with another number.
+On a GPU it takes grids (`grids.py`), whose rows have one width. On a processor it takes the samples
+of one long row without padding; started by torchrun with several processes, each takes its share of
+every batch: the result does not depend on their number, up to rounding, and a run may be resumed
+with another number.
 """
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import time
@@ -20,11 +22,16 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from planner_ft.pretraining.corpus import Rows, batched, load_shard
-from planner_ft.pretraining.grids import Grid, bias_of, grid_batches
-from planner_ft.pretraining.kernels import CAUSAL, register_attention, summed_cross_entropy
-from planner_ft.pretraining.packs import IGNORE, Row, rows_of_packs
-from planner_ft.pretraining.weights import add_dropout, rounded
+from planner_ft.pretraining.corpus import load_shard
+from planner_ft.pretraining.grids import Grid, bias_of, grid_batches, grid_of, parts_of
+from planner_ft.pretraining.model import (
+    CAUSAL,
+    add_dropout,
+    register_attention,
+    rounded,
+    summed_cross_entropy,
+)
+from planner_ft.pretraining.packs import IGNORE
 
 
 @dataclass(frozen=True)
@@ -110,59 +117,29 @@ def learning_rate(settings: PretrainSettings, done: float) -> float:
     return max(0.0, min(1.0, done / settings.warmup, (1.0 - done) / settings.decay))
 
 
-def batches(
-    shards: list[Path],
-    settings: PretrainSettings,
-    pad: int,
-    skip: int,
-    grids: Iterator[Grid] | None = None,
-) -> Iterator[Rows | Row | Grid]:
-    """Endless batches, of `grids` where these are given, else over the shards, in order; there the
-    first `skip` batches are passed over.
+def batches(shards: list[Path], settings: PretrainSettings, skip: int) -> Iterator[Grid]:
+    """Endless batches over the shards, in order, each one row; the first `skip` are passed over."""
+    width = max(settings.batch_tokens, settings.longest)
+    drawn = (
+        grid_of(*load_shard(shard), width, settings.seed + 7919 * epoch + index)
+        for epoch in itertools.count()
+        for index, shard in enumerate(shards)
+    )
+    return itertools.islice(grid_batches(drawn, 1), skip, None)
+
+
+def completion_loss(model: Any, body: Any, grid: Grid, rank: int = 0, world: int = 1) -> Tensor:
+    """Mean cross-entropy over the answer tokens of a grid, of this rank's samples where several
+    processes run. The sum over the ranks is the loss of the grid.
     """
-    if grids is not None:
-        yield from grid_batches(grids, settings.batch_tokens // settings.width)
-        return
-    number, epoch = 0, 0
-    while True:
-        for index, shard in enumerate(shards):
-            seed = settings.seed + 7919 * epoch + index
-            samples, packs = load_shard(shard)
-            drawn: list[Rows | Row] = [*batched(samples, settings.batch_tokens, pad, seed)]
-            drawn += rows_of_packs(packs, settings.batch_tokens, np.random.default_rng(seed + 1))
-            if packs:
-                drawn = [
-                    drawn[at] for at in np.random.default_rng(seed + 2).permutation(len(drawn))
-                ]
-            for rows in drawn:
-                number += 1
-                if number > skip:
-                    yield rows
-        epoch += 1
-
-
-def completion_loss(
-    model: Any, body: Any, rows: Rows | Row, rank: int = 0, world: int = 1
-) -> Tensor:
-    """Mean cross-entropy over the answer tokens of a batch, of this rank's rows where several run.
-
-    The sum over the ranks is the loss of the batch.
-    """
-    answers = int((rows.labels != IGNORE).sum())
-    own = rows if isinstance(rows, Row) else share_of(rows, rank, world)
-    shared = {}
-    if isinstance(rows, Row):
-        shared = {
-            "position_ids": torch.from_numpy(rows.positions),
-            "parts": torch.from_numpy(rows.parts),
-        }
-    labels = torch.from_numpy(own.labels).flatten()
+    answers = int((grid.labels != IGNORE).sum())
+    ids, labels, positions, parts = map(torch.from_numpy, parts_of(grid, rank, world))
     places = (labels != IGNORE).nonzero().squeeze(1)
     with torch.autocast("cpu", dtype=torch.bfloat16):
-        # Padding stands on the right, where no token sees it: the causal mask is enough.
-        hidden = body(input_ids=torch.from_numpy(own.input_ids), use_cache=False, **shared)[0]
-    chosen = hidden.flatten(0, 1)[places]
-    return summed_cross_entropy(chosen, model.lm_head.weight, labels[places]) / max(1, answers)
+        row = {"input_ids": ids[None], "position_ids": positions[None], "parts": parts}
+        hidden = body(**row, use_cache=False)[0][0]
+    found = summed_cross_entropy(hidden[places], model.lm_head.weight, labels[places])
+    return found / max(1, answers)
 
 
 def grid_loss(model: Any, body: Any, grid: Grid) -> Tensor:
@@ -181,19 +158,6 @@ def grid_loss(model: Any, body: Any, grid: Grid) -> Tensor:
         hidden = body(input_ids=ids, position_ids=positions, bias=bias, use_cache=False)[0]
         logits = model.lm_head(hidden.flatten(0, 1)[places])
     return torch.nn.functional.cross_entropy(logits.float(), targets)
-
-
-def share_of(rows: Rows, rank: int, world: int) -> Rows:
-    """The rows of a batch that a rank computes, two at least: rows without labels fill them up.
-
-    Every rank must have gradients to sum, and the compiled model is made for more rows than one.
-    """
-    ids, labels = rows.input_ids[rank::world], rows.labels[rank::world]
-    missing = max(0, 2 - len(ids))
-    if missing:
-        ids = np.concatenate([ids, np.repeat(rows.input_ids[:1], missing, 0)])
-        labels = np.concatenate([labels, np.full((missing, labels.shape[1]), IGNORE)])
-    return Rows(ids, labels, rows.tokens)
 
 
 def layer_matrices(model: nn.Module) -> list[nn.Parameter]:
@@ -224,7 +188,6 @@ def pretrain(
     shards: list[Path],
     settings: PretrainSettings,
     *,
-    pad: int,
     folder: Path,
     grids: Iterator[Grid] | None = None,
 ) -> dict[str, Any]:
@@ -240,9 +203,13 @@ def pretrain(
     optims = optimizers(model, settings)
     matrices = layer_matrices(model)
     state = _restore(folder, model, optims)
-    body, drawn = model.model, batches(shards, settings, pad, state["step"], grids)
+    if grids is None:
+        drawn = batches(shards, settings, state["step"])
+    else:
+        drawn = grid_batches(grids, settings.batch_tokens // settings.width)
+    body = model.model
     if settings.compile:
-        body = torch.compile(model.model, dynamic=grids is None)
+        body = torch.compile(body, dynamic=grids is None)
     budget, saved = Budget(settings, state["seconds"]), time.monotonic()
     begin_tokens, losses = state["tokens"], list[Tensor]()
     for rows in drawn:
@@ -251,7 +218,10 @@ def pretrain(
             for group in optim.param_groups:
                 group["lr"] = factor * peak
         with rounded(matrices) if settings.four_bit else nullcontext():
-            loss = _loss(model, body, rows, rank, world)
+            if grids is None:
+                loss = completion_loss(model, body, rows, rank, world)
+            else:
+                loss = grid_loss(model, body, rows)
             torch.autograd.backward(loss)
         losses.append(_summed(model, loss.detach(), world))
         torch.nn.utils.clip_grad_norm_(model.parameters(), settings.gradient_clip)
@@ -276,12 +246,6 @@ def pretrain(
         if done:
             break
     return {**state, "loss": _mean(losses[-50:]), "settings": asdict(settings)}
-
-
-def _loss(model: Any, body: Any, rows: Rows | Row | Grid, rank: int, world: int) -> Tensor:
-    if isinstance(rows, Grid):
-        return grid_loss(model, body, rows)
-    return completion_loss(model, body, rows, rank, world)
 
 
 def _mean(losses: list[Tensor]) -> float:

@@ -1,14 +1,19 @@
 """Packs: one vocabulary and several samples that share it, one behind the other.
 
 A sample sees the vocabulary and itself, and its positions go on where the vocabulary ends: each is
-computed as if it stood alone behind that prompt, and the prompt is paid for once.
+computed as if it stood alone behind that prompt, and the prompt is paid for once. The vocabulary is
+that of a vehicle under other names: what a model can only plan for by reading it. Titles and keys
+are renamed, tasks that the samples do not need are dropped, the others stand in another order, and
+home, the unresolved place and the vehicle's name are others. What a task is for stands in its
+description, which stays.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -17,10 +22,10 @@ from numpy.typing import NDArray
 
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.varying import with_unfamiliar_words
-from planner_ft.pretraining.views import view
+from planner_ft.facts.words import known_words
 from planner_ft.prompts.render import end_of_turn_ids, prompt_frame
 from planner_ft.prompts.text import answer_text
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Task, Vocabulary
 
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase
@@ -35,23 +40,20 @@ Part = tuple[Ids, int]
 """Token ids and the length of the prompt among them; of the vocabulary, all is prompt."""
 Pack = list[Part]
 """The vocabulary's prompt, then the samples behind it."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """Packs as one row: int64 arrays of shape (1, width) and `parts`, shape (n, 4): where each part
-    begins and ends, and where its vocabulary does (empty for a vocabulary itself).
-    """
-
-    input_ids: Ids
-    labels: Ids
-    positions: Ids
-    parts: Ids
-
-    @property
-    def tokens(self) -> int:
-        """The number of tokens."""
-        return int(self.input_ids.size)
+KEPT, DESCRIBED = 0.2, 0.65
+"""Share of the names that stay, and of all that stay or are made of words of the description."""
+SMALL = "a an and at by for in into is it its of off on or that the to up what with"
+"""Words that no name is made of."""
+STYLES: tuple[Callable[[Sequence[str]], str], ...] = (
+    lambda words: "".join(word.capitalize() for word in words),
+    lambda words: "".join(word.capitalize() for word in words),
+    "_".join,
+    lambda words: "_".join(words).upper(),
+    lambda words: words[0] + "".join(word.capitalize() for word in words[1:]),
+)
+HOMES = ((0, 0), (0, 0), (5, 5), (-3, 12), (10, 0), (0, -20), (1, 1), (100, 50))
+UNRESOLVED = ((-99, -99), (-99, -99), (-1, -1), (999, 999), (-999, -999), (9999, 9999))
+_ANY = tuple(sorted(word for word in known_words() if 3 <= len(word) <= 9 and word.isascii()))
 
 
 def draw_packs(
@@ -123,32 +125,105 @@ def packs_in(data: Any) -> list[Pack]:
     return [parts[start:end] for start, end in itertools.pairwise([0, *ends])]
 
 
-def rows_of_packs(packs: Sequence[Pack], batch_tokens: int, rng: Any) -> list[Row]:
-    """Rows of about `batch_tokens` tokens, in a drawn order."""
-    rows, waiting, used = list[Row](), list[Pack](), 0
-    for index in map(int, rng.permutation(len(packs))):
-        waiting.append(packs[index])
-        used += sum(len(ids) for ids, _prompt in packs[index])
-        if used >= batch_tokens - 1000:
-            rows.append(row_of(waiting))
-            waiting, used = [], 0
-    return rows + ([row_of(waiting)] if waiting else [])
+# ---------------------------------------------------------------- other names
 
 
-def row_of(packs: Sequence[Pack]) -> Row:
-    """These packs as one row."""
-    ids, labels, positions, parts = list[Ids](), list[Ids](), list[Ids](), []
-    at = 0
-    for pack in packs:
-        vocabulary = at, at + len(pack[0][0])
-        for number, (tokens, prompt) in enumerate(pack):
-            shown = vocabulary if number else (at, at)
-            parts.append((at, at + len(tokens), *shown))
-            target = np.full(len(tokens), IGNORE)
-            target[prompt - 1 : -1] = tokens[prompt:]
-            ids.append(tokens)
-            labels.append(target)
-            positions.append(np.arange(len(tokens)) + (shown[1] - shown[0]))
-            at += len(tokens)
-    found, wanted, places = (np.concatenate(one)[None] for one in (ids, labels, positions))
-    return Row(found, wanted, places, np.array(parts, dtype=np.int64))
+@dataclass(frozen=True)
+class View:
+    """A renamed vocabulary, and how records of the own one are put into it."""
+
+    vocabulary: Vocabulary
+    titles: dict[str, str]
+    keys: dict[str, str]
+    places: Mapping[tuple[float, float], tuple[float, float]]
+
+    def record(self, record: dict[str, Any]) -> dict[str, Any]:
+        """A mission record with the view's names and places."""
+        expected = record["expected"]
+        tasks = [
+            {
+                "title": self.titles[task["title"]],
+                "parameters": {
+                    self.keys[key]: self._placed(value) for key, value in task["parameters"].items()
+                },
+                "task_prompt": self._said(task["task_prompt"]),
+            }
+            for task in expected["tasks"]
+        ]
+        texts = {
+            key: list(map(self._said, expected[key])) for key in ("assumptions", "constraints")
+        }
+        return {"prompt": record["prompt"], "expected": {"tasks": tasks, **texts}}
+
+    def _placed(self, value: Any) -> Any:
+        place = self.places.get((value[0], value[1])) if _is_place(value) else None
+        return list(place) if place else value
+
+    def _said(self, text: str) -> str:
+        for own, other in self.places.items():
+            text = text.replace(str(list(own)), str(list(other)))
+        return text
+
+
+def view(
+    vocabulary: Vocabulary,
+    records: Sequence[dict[str, Any]],
+    others: Sequence[Vocabulary],
+    rng: Random,
+) -> View:
+    """The vehicle under other names, with the tasks of `records` and some of the rest; `others`
+    lend it the name of a vehicle and of a frame.
+    """
+    used = {task["title"] for record in records for task in record["expected"]["tasks"]}
+    share = rng.uniform(0.3, 1.0)
+    tasks = [task for task in vocabulary.tasks if task.title in used or rng.random() < share]
+    if rng.random() < 0.7:
+        rng.shuffle(tasks)
+    titles = _names([(task.title, task.description) for task in tasks], rng)
+    keys = _names([(one.name, one.description) for task in tasks for one in task.parameters], rng)
+    home, unresolved = rng.choice(HOMES), rng.choice(UNRESOLVED)
+    renamed = replace(
+        vocabulary,
+        title=rng.choice(others).title,
+        frame=rng.choice(others).frame,
+        home=home,
+        unresolved=unresolved,
+        tasks=tuple(_renamed(task, titles, keys) for task in tasks),
+    )
+    places = {vocabulary.home: home, vocabulary.unresolved: unresolved}
+    return View(renamed, titles, keys, dict(places))
+
+
+def _renamed(task: Task, titles: dict[str, str], keys: dict[str, str]) -> Task:
+    parameters = tuple(replace(one, name=keys[one.name]) for one in task.parameters)
+    needed = tuple(keys[name] for name in task.require_any)
+    return replace(task, title=titles[task.title], parameters=parameters, require_any=needed)
+
+
+def _names(described: Sequence[tuple[str, str]], rng: Random) -> dict[str, str]:
+    """Other names for names with their descriptions, all different, in one style."""
+    style, found = rng.choice(STYLES), dict[str, str]()
+    kept = rng.choice((0.0, KEPT, KEPT, 1.0))
+    for name, description in described:
+        if name in found:
+            continue
+        other = name if rng.random() < kept else style(_words(description, rng))
+        while other in found.values():
+            other += rng.choice("ABCDEFGH23456789")
+        found[name] = other
+    return found
+
+
+def _words(description: str, rng: Random) -> list[str]:
+    """One to three words of a description, or others that have nothing to do with it."""
+    said, small = re.findall("[a-z]{3,}", description.lower()), SMALL.split()
+    own = [word for word in said if word not in small]
+    count = rng.choice((1, 2, 2, 3))
+    if own and rng.random() < DESCRIBED:
+        places = sorted(rng.sample(range(len(own)), min(count, len(own))))
+        return [own[place] for place in places]
+    return [rng.choice(_ANY) for _ in range(min(count, 2))]
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2

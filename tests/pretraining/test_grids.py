@@ -16,8 +16,14 @@ import torch
 
 from planner_ft.data.missions import sample_missions
 from planner_ft.pretraining.corpus import Mixture, load_shard
-from planner_ft.pretraining.drawing import grids_of
-from planner_ft.pretraining.grids import Grid, grid_batches, grid_of, read_grid, write_grid
+from planner_ft.pretraining.grids import (
+    Grid,
+    grid_batches,
+    grid_of,
+    grids_of,
+    read_grid,
+    write_grid,
+)
 from planner_ft.pretraining.loop import Budget, PretrainSettings, grid_loss, new_model, pretrain
 from planner_ft.pretraining.packs import IGNORE, Pack, packed
 from planner_ft.vocabulary import load_vocabulary
@@ -86,7 +92,7 @@ def test_a_model_learns_on_grids(shard: Path, tokenizer: Any, tmp_path: Path) ->
         before = float(grid_loss(model, model.model, grid))
     settings = replace(SETTINGS, tokens=60_000, compile=False)
     grids: Iterator[Grid] = itertools.repeat(grid)
-    pretrain(model, [], settings, pad=0, folder=tmp_path, grids=grids)
+    pretrain(model, [], settings, folder=tmp_path, grids=grids)
     with torch.no_grad():
         after = float(grid_loss(model, model.model, grid))
     assert after < 0.9 * before

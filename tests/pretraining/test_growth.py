@@ -10,7 +10,7 @@ import pytest
 import torch
 
 from planner_ft.pretraining.loop import PretrainSettings, new_model
-from planner_ft.pretraining.weights import add_dropout, deepened
+from planner_ft.pretraining.model import add_dropout, deepened
 
 SETTINGS = PretrainSettings(hidden=32, layers=4, heads=2, feed_forward=48)
 SPECIAL = {"bos": 1, "eos": 2, "pad": 0}

@@ -6,10 +6,9 @@ import pytest
 import torch
 from torch import Tensor, nn
 
-from planner_ft.pretraining.kernels import (
+from planner_ft.pretraining.model import (
     CAUSAL,
     ROWS,
-    causal_attention,
     register_attention,
     shared_attention,
     summed_cross_entropy,
@@ -18,23 +17,6 @@ from planner_ft.pretraining.kernels import (
 
 def gradients(result: Tensor, upstream: Tensor, *leaves: Tensor) -> list[Tensor]:
     return list(torch.autograd.grad(result, leaves, upstream))
-
-
-def test_attention_and_its_gradients_are_those_of_torch() -> None:
-    torch.manual_seed(0)
-    query, key, value = (torch.randn(3, 2, 37, 16, requires_grad=True) for _ in range(3))
-    upstream = torch.randn(3, 2, 37, 16)
-    ours = causal_attention(query, key, value, 0.25)[0].view(3, 2, 37, 16)
-    theirs = nn.functional.scaled_dot_product_attention(
-        query, key, value, is_causal=True, scale=0.25
-    )
-    torch.testing.assert_close(ours, theirs)
-    for mine, reference in zip(
-        gradients(ours, upstream, query, key, value),
-        gradients(theirs, upstream, query, key, value),
-        strict=True,
-    ):
-        torch.testing.assert_close(mine, reference)
 
 
 def test_parts_of_a_row_attend_as_if_each_stood_alone_behind_what_it_shares() -> None:

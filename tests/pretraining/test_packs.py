@@ -14,9 +14,9 @@ import torch
 from planner_ft.data.missions import sample_missions
 from planner_ft.document.own_vehicle import new_vehicle
 from planner_ft.pretraining.corpus import Mixture, encode_shard, load_shard
-from planner_ft.pretraining.kernels import CAUSAL, register_attention
-from planner_ft.pretraining.packs import IGNORE, packed, row_of, rows_of_packs
-from planner_ft.pretraining.views import view
+from planner_ft.pretraining.grids import grid_of, parts_of
+from planner_ft.pretraining.model import CAUSAL, register_attention
+from planner_ft.pretraining.packs import IGNORE, packed, view
 from planner_ft.prompts import render_sample
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
@@ -74,12 +74,13 @@ def test_a_packed_sample_is_computed_as_if_it_stood_alone(pack: Any, tokenizer: 
     register_attention()
     config = LlamaConfig(vocab_size=len(tokenizer), attn_implementation=CAUSAL, **sizes, **heads)
     model: Any = LlamaForCausalLM(config)
-    row = row_of([pack, pack])
-    ids, positions, parts = map(torch.from_numpy, (row.input_ids, row.positions, row.parts))
+    row = parts_of(grid_of([], [pack, pack], 8192, seed=0))
+    ids, _labels, positions, parts = map(torch.from_numpy, row)
     with torch.no_grad():
-        found = model.model(input_ids=ids, position_ids=positions, parts=parts, use_cache=False)[0]
+        given = {"input_ids": ids[None], "position_ids": positions[None], "parts": parts}
+        found = model.model(**given, use_cache=False)[0]
         for number in (1, 3, len(pack) + 2):
-            start, end = row.parts[number][:2]
+            start, end = parts[number, :2].tolist()
             alone = np.concatenate([pack[0][0], pack[number % len(pack)][0]])
             expected = model.model(input_ids=torch.from_numpy(alone[None]), use_cache=False)[0]
             own = expected[0, len(pack[0][0]) :]
@@ -97,8 +98,7 @@ def test_answers_alone_are_learnt_and_ids_are_those_of_rendering(tokenizer: Any)
         )
         assert [*pack[0][0], *ids] == rendered.input_ids
         assert len(pack[0][0]) + prompt == rendered.prompt_length
-    row = row_of([pack])
-    learnt = int((row.labels != IGNORE).sum())
+    learnt = int((grid_of([], [pack], 8192, seed=0).labels != IGNORE).sum())
     assert learnt == sum(len(ids) - prompt for ids, prompt in pack[1:])
 
 
@@ -111,6 +111,6 @@ def test_a_shard_holds_its_packs(tokenizer: Any, tmp_path: Path) -> None:
     samples, packs = load_shard(tmp_path / "a.npz")
     assert len(samples) == counts["samples"] and len(packs) == counts["packs"] == 4
     assert all(prompt == len(ids) for ids, prompt in (pack[0] for pack in packs))
-    rows = rows_of_packs(packs, 3000, np.random.default_rng(0))
-    in_rows = sum(row.tokens for row in rows)
-    assert in_rows == sum(len(ids) for ids, _prompt in itertools.chain(*packs))
+    assert grid_of([], packs, 8192, seed=0).tokens == sum(
+        len(ids) for ids, _prompt in itertools.chain(*packs)
+    )

@@ -1,5 +1,6 @@
 """How the embedded candidate is made: tokenizer, packed corpus, resumable loop."""
 
+import itertools
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,15 +9,17 @@ import numpy as np
 import pytest
 import torch
 
-from planner_ft.pretraining.corpus import batched, load_shard, rows_of, tokenizer_texts
+from planner_ft.pretraining.corpus import load_shard, tokenizer_texts
+from planner_ft.pretraining.grids import grid_of, parts_of
 from planner_ft.pretraining.loop import (
     PretrainSettings,
+    batches,
     completion_loss,
+    grid_loss,
     learning_rate,
     new_model,
     pretrain,
 )
-from planner_ft.pretraining.packs import IGNORE
 from planner_ft.pretraining.tokenizer import train_tokenizer
 from planner_ft.prompts.text import system_text
 from planner_ft.vocabulary import load_vocabulary
@@ -62,40 +65,37 @@ def test_the_tokenizer_is_the_same_for_the_same_texts(tokenizer: Any) -> None:
 
 def test_batches_hold_every_sample_once_and_little_padding(shard: Path) -> None:
     samples = load_shard(shard)[0]
-    batches = batched(samples, 2048, 0, seed=3)
-    found = [
-        tuple(row[: len(ids)])
-        for rows in batches
-        for row in rows.input_ids
-        for ids, _prompt in samples
-        if np.array_equal(row[: len(ids)], ids)
-    ]
-    assert sorted(set(found)) == sorted(tuple(ids) for ids, _prompt in samples)
-    assert sum(len(rows.input_ids) for rows in batches) == len(samples)
-    assert sum((rows.labels != IGNORE).sum() for rows in batches) == sum(
-        len(ids) - prompt for ids, prompt in samples
-    )
-    assert sum(rows.tokens for rows in batches) == sum(len(ids) for ids, _prompt in samples)
-    assert all(rows.input_ids.size <= 2048 + 1024 for rows in batches)
+    tokens = sum(len(ids) for ids, _prompt in samples)
+    drawn = list(itertools.islice(batches([shard], TINY, 0), -(-tokens // 2048) + 2))
+    grid = grid_of(samples, [], 2048, seed=TINY.seed)
+    for row, batch in zip(range(len(grid.units)), drawn, strict=False):
+        assert np.array_equal(batch.input_ids, grid.input_ids[row : row + 1])
+    cells = [parts_of(batch) for batch in drawn[: len(grid.units)]]
+    found = [tuple(ids[a:b]) for ids, *_, parts in cells for a, b, *_shown in parts]
+    assert sorted(found) == sorted(tuple(ids) for ids, _prompt in samples)
+    assert sum(len(ids) for ids, *_ in cells) == tokens > 0.8 * grid.units.size
+    assert [*batches([shard], TINY, 2).__next__().labels[0]] == [*drawn[2].labels[0]]
 
 
-def test_padding_does_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
+def test_other_samples_and_padding_do_not_change_the_loss(shard: Path, tokenizer: Any) -> None:
     samples = sorted(load_shard(shard)[0], key=lambda sample: len(sample[0]))[:4]
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
     weights = [len(ids) - prompt for ids, prompt in samples]
     apart = [
-        completion_loss(model, model.model, rows_of([sample], len(sample[0]), 0)).item()
-        for sample in samples
+        completion_loss(model, model.model, grid_of([one], [], len(one[0]), 0)).item()
+        for one in samples
     ]
-    assert completion_loss(model, model.model, rows_of(samples, 256, 0)).item() == pytest.approx(
-        np.average(apart, weights=weights), rel=2e-3
-    )
+    together = completion_loss(model, model.model, grid_of(samples, [], 2048, 0))
+    assert together.item() == pytest.approx(np.average(apart, weights=weights), rel=2e-3)
+    with torch.no_grad():
+        masked = grid_loss(model, model.model, grid_of(samples, [], 2048, 0))
+    assert together.item() == pytest.approx(masked.item(), rel=2e-3)
 
 
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_shares_of_a_batch_add_up_to_it(shard: Path, tokenizer: Any, count: int) -> None:
     model: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    rows = rows_of(load_shard(shard)[0][:count], 1024, 0)
+    rows = grid_of(load_shard(shard)[0][:count], [], 1024, 0)
 
     def gradients(rank: int, world: int) -> list[torch.Tensor]:
         model.zero_grad()
@@ -117,7 +117,7 @@ def test_the_loss_falls_and_an_interrupted_run_continues(
         # The plateau of the learning rate is the same for both budgets, so that only the
         # interruption differs.
         settings = replace(TINY, tokens=tokens, warmup=1e-9, decay=1e-9)
-        return pretrain(model, [shard], settings, pad=0, folder=tmp_path / folder), model
+        return pretrain(model, [shard], settings, folder=tmp_path / folder), model
 
     whole, first = run("whole", 30_000)
     run("parts", 12_000)
@@ -128,7 +128,7 @@ def test_the_loss_falls_and_an_interrupted_run_continues(
         for a, b in zip(first.state_dict().values(), second.state_dict().values(), strict=True)
     )
     fresh: Any = new_model(TINY, len(tokenizer), SPECIAL)
-    rows = rows_of(load_shard(shard)[0][:8], 1024, 0)
+    rows = grid_of(load_shard(shard)[0][:8], [], 1024, 0)
     assert completion_loss(first, first.model, rows) < 0.9 * completion_loss(
         fresh, fresh.model, rows
     )

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from planner_ft.pretraining.loop import PretrainSettings, layer_matrices, new_model, pretrain
-from planner_ft.pretraining.weights import nf4, rounded
+from planner_ft.pretraining.model import nf4, rounded
 
 TINY = PretrainSettings(
     hidden=64,
@@ -77,7 +77,7 @@ def test_a_stage_learns_through_the_rounding(shard: Path, tokenizer: Any, tmp_pa
         if any(value is matrix for matrix in layer_matrices(model))
     } == {*("q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj")}
     first = [value.detach().clone() for value in layer_matrices(model)]
-    result = pretrain(model, [shard], TINY, pad=0, folder=tmp_path)
+    result = pretrain(model, [shard], TINY, folder=tmp_path)
     assert result["settings"]["four_bit"] is True
     assert all(
         not torch.equal(value, old) and not torch.equal(value, nf4(value))

@@ -1,12 +1,20 @@
-"""Attention and loss of the pretraining loop, for one processor core, in pieces for its cache.
+"""The model in training: its attention and loss, deeper models from shallower ones, dropout, layers
+rounded to 4 bits.
 
-The compiler's own kernels for softmax over rows of varying length run several times slower there,
-so both are custom operators that it passes by. `CAUSAL` is the name under which a transformers
-model finds the attention.
+Attention and loss are made in pieces for the cache of a processor core: the compiler's own kernels
+for softmax over rows of varying length run several times slower there, so attention is a custom
+operator that it passes by.
+
+The candidate runs with its layers' matrices in NF4. In a stage that is trained through the
+rounding, the forward pass sees what NF4 leaves of them, and the optimiser moves the weights behind
+(the straight-through estimator of Bengio et al., arXiv:1308.3432).
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import torch
@@ -14,73 +22,18 @@ from torch import Tensor
 from torch.nn.functional import scaled_dot_product_attention
 
 CAUSAL = "planner_ft_causal"
+"""The name under which a transformers model finds the attention."""
 LONGEST = 2048
-"""Positions in a row at most."""
+"""Positions in a part at most."""
 ROWS = 256
 """Rows of logits in a piece."""
+LAYER = re.compile(r"(model\.layers\.)(\d+)(\..+)")
+OUTPUTS = (".self_attn.o_proj.weight", ".mlp.down_proj.weight")
+"""A layer adds to the stream through these matrices: with zeros there it adds nothing."""
+BLOCK = 64
+"""Weights that share a scale, as transformers' NF4 configuration has it."""
 
 _BIAS = torch.full((LONGEST, LONGEST), float("-inf")).triu(1)
-
-
-@torch.library.custom_op("planner_ft::causal_attention", mutates_args=())
-def causal_attention(
-    query: Tensor, key: Tensor, value: Tensor, scale: float
-) -> tuple[Tensor, Tensor]:
-    """Attention of each position to itself and those before it, and its weights.
-
-    Shapes: (batch, heads, length, width) each; weights (batch * heads, length, length).
-    """
-    query, key, value = _flat(query * scale), _flat(key), _flat(value)
-    length = query.shape[1]
-    scores = torch.bmm(query, key.transpose(1, 2)).add_(_BIAS[:length, :length].to(query.dtype))
-    weights = torch.softmax(scores, -1)
-    return torch.bmm(weights, value), weights
-
-
-@causal_attention.register_fake
-def _(query: Tensor, key: Tensor, value: Tensor, scale: float) -> tuple[Tensor, Tensor]:
-    batch, heads, length, width = query.shape
-    rows = batch * heads
-    return query.new_empty((rows, length, width)), query.new_empty((rows, length, length))
-
-
-@torch.library.custom_op("planner_ft::causal_attention_backward", mutates_args=())
-def causal_attention_backward(
-    gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float
-) -> tuple[Tensor, Tensor, Tensor]:
-    """Gradients of query, key and value, each (batch * heads, length, width)."""
-    query, key, value = _flat(query), _flat(key), _flat(value)
-    of_weights = torch.bmm(gradient, value.transpose(1, 2))
-    of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
-    return (
-        torch.bmm(of_scores, key) * scale,
-        torch.bmm(of_scores.transpose(1, 2), query) * scale,
-        torch.bmm(weights.transpose(1, 2), gradient),
-    )
-
-
-@causal_attention_backward.register_fake
-def _(
-    gradient: Tensor, query: Tensor, key: Tensor, value: Tensor, weights: Tensor, scale: float
-) -> tuple[Tensor, Tensor, Tensor]:
-    return torch.empty_like(gradient), torch.empty_like(gradient), torch.empty_like(gradient)
-
-
-def _remember(ctx: Any, inputs: tuple[Any, ...], output: tuple[Tensor, Tensor]) -> None:
-    query, key, value, ctx.scale = inputs
-    ctx.save_for_backward(query, key, value, output[1])
-
-
-def _backward(
-    ctx: Any, gradient: Tensor, _of_weights: Tensor | None
-) -> tuple[Tensor, Tensor, Tensor, None]:
-    query, key, value, weights = ctx.saved_tensors
-    found = causal_attention_backward(gradient.contiguous(), query, key, value, weights, ctx.scale)
-    of_query, of_key, of_value = (part.view(query.shape) for part in found)
-    return of_query, of_key, of_value, None
-
-
-torch.library.register_autograd("planner_ft::causal_attention", _backward, setup_context=_remember)
 
 
 @torch.library.custom_op("planner_ft::shared_attention", mutates_args=())
@@ -89,7 +42,8 @@ def shared_attention(
 ) -> Tensor:
     """Causal attention within each part of a row and to all of the part that it shares.
 
-    Shapes: (1, heads, length, width) each; `parts` (n, 4) as in `packs.Row`. Gives (heads, length,
+    Shapes: (1, heads, length, width) each; `parts` (n, 4) as `grids.parts_of`
+    gives them. Gives (heads, length,
     width).
     """
     query, key, value = (part[0] for part in (query, key, value))
@@ -167,8 +121,8 @@ torch.library.register_autograd(
 
 
 def register_attention() -> None:
-    """Name the attention CAUSAL for transformers' models; padding must stand on the right. With
-    `parts`, samples share a row (`packs.Row`); `bias` says what each position of a grid sees.
+    """Name the attention CAUSAL for transformers' models. With `parts`, samples share a row; `bias`
+    says what each position of a grid sees; without both, each sees itself and those before it.
     """
     from transformers.modeling_utils import ALL_ATTENTION_FUNCTIONS
 
@@ -185,13 +139,11 @@ def register_attention() -> None:
     ) -> tuple[Tensor, None]:
         # Rotary positions leave queries and keys in float32, also where values are bfloat16.
         same = (query.to(value.dtype), key.to(value.dtype), value)
-        if bias is not None:
-            found = scaled_dot_product_attention(*same, attn_mask=bias, scale=scaling)
-            return found.transpose(1, 2), None
         if parts is not None:
             return shared_attention(*same, parts, scaling)[None].transpose(1, 2), None
-        attended, _weights = causal_attention(*same, scaling)
-        return attended.view(query.shape).transpose(1, 2), None
+        alone = bias is None
+        found = scaled_dot_product_attention(*same, bias, is_causal=alone, scale=scaling)
+        return found.transpose(1, 2), None
 
     ALL_ATTENTION_FUNCTIONS.register(CAUSAL, attend)
 
@@ -232,6 +184,66 @@ class _SummedCrossEntropy(torch.autograd.Function):
         return of_hidden * gradients[0].to(of_hidden.dtype), of_weight * gradients[0], None
 
 
-def _flat(part: Tensor) -> Tensor:
-    """(batch, heads, length, width) → (batch * heads, length, width)."""
-    return part.reshape(-1, *part.shape[2:])
+def deepened(weights: dict[str, Tensor], layers: int) -> dict[str, Tensor]:
+    """The weights of a Llama with `layers` layers that computes the same as one with fewer.
+
+    The new layers stand evenly among the old ones. Each is a copy of the layer before it whose two
+    output matrices are zero, so that it passes its input on until training has changed it (block
+    expansion, Wu et al. 2024, arXiv:2401.02415). Raises ValueError if `weights` has more layers.
+    """
+    own = 1 + max(int(found[2]) for found in map(LAYER.fullmatch, weights) if found)
+    if own > layers:
+        sizes = f"The weights to start from have {own} layers, the model {layers}"
+        raise ValueError(f"{sizes}: a stage may add layers, not take them away.")
+    grown = {name: value for name, value in weights.items() if not LAYER.fullmatch(name)}
+    sources = [place * own // layers for place in range(layers)]
+    for place, source in enumerate(sources):
+        added = place > 0 and sources[place - 1] == source
+        for name, value in weights.items():
+            found = LAYER.fullmatch(name)
+            if found and int(found[2]) == source:
+                empty = added and name.endswith(OUTPUTS)
+                own_value = torch.zeros_like(value) if empty else value.clone()
+                grown[f"{found[1]}{place}{found[3]}"] = own_value
+    return grown
+
+
+def add_dropout(model: Any, share: float) -> None:
+    """Drop this share of what embeddings, attention and feed-forward layers of a Llama give, in
+    training mode: transformers' Llama has no such setting.
+    """
+
+    def dropped(module: Any, _given: Any, found: Any) -> Any:
+        if isinstance(found, tuple):
+            return dropped(module, _given, found[0]), *found[1:]
+        return torch.nn.functional.dropout(found, share, module.training)
+
+    for layer in model.model.layers:
+        layer.self_attn.register_forward_hook(dropped)
+        layer.mlp.register_forward_hook(dropped)
+    model.model.embed_tokens.register_forward_hook(dropped)
+
+
+def nf4(weights: Tensor) -> Tensor:
+    """A bfloat16 matrix after a round trip through NF4 with double quantisation."""
+    from bitsandbytes.functional import dequantize_4bit, quantize_4bit
+
+    matrix = weights.detach().to(torch.bfloat16).contiguous()
+    packed = quantize_4bit(matrix, blocksize=BLOCK, compress_statistics=True, quant_type="nf4")
+    values: Tensor = dequantize_4bit(*packed)
+    return values.to(weights.dtype).view_as(weights)
+
+
+@contextmanager
+def rounded(matrices: Sequence[Tensor]) -> Iterator[None]:
+    """In the block the matrices hold their NF4 values; afterwards their own, with new gradients."""
+    with torch.no_grad():
+        kept = [matrix.clone() for matrix in matrices]
+        for matrix in matrices:
+            matrix.copy_(nf4(matrix))
+    try:
+        yield
+    finally:
+        with torch.no_grad():
+            for matrix, own in zip(matrices, kept, strict=True):
+                matrix.copy_(own)
