@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import planner_ft
-from planner_ft.data.tags import coverage_problems
+from planner_ft.data.labels import coverage_problems
 from planner_ft.data.validation import validate_file
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl

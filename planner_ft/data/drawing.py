@@ -7,8 +7,16 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.filling import UNPLACED, Filling, is_name
-from planner_ft.data.formulas import is_formula, operands, worked_out
-from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
+from planner_ft.data.mission_binding import (
+    CLAUSE,
+    IT,
+    OBJECTS,
+    Bound,
+    Line,
+    is_formula,
+    operands,
+    worked_out,
+)
 from planner_ft.data.mission_plan import Intent, Target, point_text
 from planner_ft.data.numbers import Value, digits, pick, position
 from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, base_of, choose

@@ -8,21 +8,24 @@ from dataclasses import replace
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.formulas import (
+from planner_ft.data.mission_binding import (
+    CLAUSE,
     HOME,
+    LIMIT,
     WINDS,
+    Bound,
+    Line,
     directions,
     is_formula,
     operands,
     opposite,
     worked_out,
 )
-from planner_ft.data.mission_binding import CLAUSE, LIMIT, Bound, Line
 from planner_ft.data.mission_plan import Target, point_text
 from planner_ft.data.numbers import WRITTEN, Value, bearing, knots, pick
-from planner_ft.data.task.values import draw_number, draw_point
 from planner_ft.data.templates.grammar import Chosen, Slot, base_of, fail
 from planner_ft.data.templates.records import Template
+from planner_ft.data.values import draw_number, draw_point
 from planner_ft.facts.geometry import Point, point
 
 if TYPE_CHECKING:

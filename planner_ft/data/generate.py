@@ -10,11 +10,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from planner_ft.data.card import dataset_card
 from planner_ft.data.curated import curated_folder, curated_splits, find_source
 from planner_ft.data.leakage import leakage_report
 from planner_ft.data.missions import sample_missions
-from planner_ft.data.output import DataFolder, write_folders
+from planner_ft.data.output import DataFolder, dataset_card, write_folders
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError

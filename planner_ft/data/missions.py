@@ -21,11 +21,10 @@ from planner_ft.data.mission_binding import HOME, Bound, bind
 from planner_ft.data.mission_plan import PlanTexts
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import Value, feet, knots, pick
-from planner_ft.data.task.values import Draw, value_space
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template, templates
 from planner_ft.data.templates.render import plain
-from planner_ft.data.wordlists import WordLists
+from planner_ft.data.values import Draw, WordLists, value_space
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import MISSIONS

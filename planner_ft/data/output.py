@@ -1,18 +1,36 @@
-"""Writing a data folder: all of it or nothing, and never over other results unasked."""
+"""A data folder: its card, and writing all of it or nothing, never over other results unasked.
+
+The card (card.md.j2) is a README.md in the Hugging Face form, so that `load_dataset(FOLDER)` finds
+every split, with the figures that describe the set.
+"""
 
 from __future__ import annotations
 
+import itertools
 import json
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from planner_ft.data.labels import TAGS, tags_of
+from planner_ft.data.leakage import mask
+from planner_ft.facts import words
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, sha256_file, sha256_text, write_json, write_text
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 
 MANIFEST = "manifest.json"
+Records = Sequence[Mapping[str, Any]]
+Splits = Mapping[str, Records]
+SIZES = ((1_000, "n<1K"), (10_000, "1K<n<10K"), (100_000, "10K<n<100K"), (1_000_000, "100K<n<1M"))
+QUANTILES = (0, 50, 90, 100)
+FAMILIES = 40
 
 
 @dataclass(frozen=True)
@@ -107,3 +125,111 @@ def _write(folder: DataFolder, texts: dict[str, str]) -> None:
         raise PlannerError(
             f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out"
         ) from None
+
+
+# ---------------------------------------------------------------- the card
+
+
+def dataset_card(
+    level: Level,
+    splits: Splits,
+    vocabulary: Vocabulary,
+    leakage: Mapping[str, Any] | None,
+    seed: int | None,
+    labelling: str = "",
+    *,
+    chat: bool = False,
+) -> str:
+    """The card's text: front matter, counts, coverage, lengths, diversity, leakage. Without a
+    leakage report it is that of synthetic missions; `chat` names the chat form, too.
+    """
+    import jinja2
+
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined, keep_trailing_newline=True, autoescape=False
+    )
+    template = environment.from_string(Path(__file__).with_name("card.md.j2").read_text("utf-8"))
+    total = sum(map(len, splits.values()))
+    found = {split: _found(level, records) for split, records in splits.items()}
+    figures = {split: diversity(records) for split, records in splits.items() if records}
+
+    return template.render(
+        figures=lambda key, name: [of[key][name] for of in found.values()],
+        level=level,
+        labelling=labelling,
+        vocabulary=vocabulary,
+        chat=chat,
+        seed=seed,
+        size=next((name for limit, name in SIZES if total < limit), "n>1M"),
+        splits=splits,
+        found=found,
+        tags=tags_of(vocabulary) if any(of["tags"] for of in found.values()) else [],
+        rules=TAGS,
+        lengths=_lengths(level, splits),
+        diversity=figures,
+        leakage=leakage,
+        families=Counter(
+            record["family"] for records in splits.values() for record in records
+        ).most_common(FAMILIES),
+    )
+
+
+def _found(level: Level, records: Records) -> dict[str, Counter[Any]]:
+    """How often names, tasks of the input, tags and pairs (`_pairs`) occur."""
+    return {
+        "names": Counter(
+            name for record in records for name in plan_names(level, record["expected"])
+        ),
+        "inputs": Counter(record["task"] for record in records if "task" in record),
+        "tags": Counter(tag for record in records for tag in record.get("tags", ())),
+        "pairs": Counter(_pairs(level, records)),
+    }
+
+
+def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
+    """Titles that follow each other; at task level skills that run at the same time, sorted."""
+    for record in records:
+        if level == "mission":
+            yield from itertools.pairwise(plan_names(level, record["expected"]))
+            continue
+        for step in record["expected"]["skill_sequence"]:
+            names = sorted({str(skill["name"]) for _role, skill in step_skills(step)})
+            yield from itertools.combinations(names, 2)
+
+
+def _lengths(level: Level, splits: Splits) -> Iterator[list[Any]]:
+    """[measure, split, minimum, median, 90th percentile, maximum]."""
+    measures: dict[str, Callable[[Mapping[str, Any]], int]] = {
+        "words in the prompt": lambda record: len(words(record["prompt"])),
+        f"{'tasks' if level == 'mission' else 'steps'} in the plan": lambda record: len(
+            record["expected"][list_key(level)]
+        ),
+        "characters in the plan": lambda record: len(compact_json(record["expected"])),
+    }
+    for name, measure in measures.items():
+        for split, records in splits.items():
+            if records:
+                found = np.percentile([measure(record) for record in records], QUANTILES)
+                yield [name, split, *map(round, found)]
+
+
+def diversity(records: Records) -> dict[str, float]:
+    """Families, phrasings (prompts without numbers and names), vocabulary size, type-token ratio
+    and distinct-n of the prompts.
+
+    distinct-n is the share of word n-grams that are different (Li et al. 2016); distinct-1 is the
+    type-token ratio.
+    """
+    tokens = [words(str(record["prompt"])) for record in records]
+    different = {word for text in tokens for word in text}
+    figures: dict[str, float] = {
+        "families": len({record.get("family") for record in records}),
+        "phrasings": len({mask(str(record["prompt"])) for record in records}),
+        "different words": len(different),
+        "type-token ratio": round(len(different) / max(sum(map(len, tokens)), 1), 4),
+    }
+    for size in (2, 3):
+        starts = ((text, start) for text in tokens for start in range(len(text) - size + 1))
+        grams = [tuple(text[start : start + size]) for text, start in starts]
+        figures[f"distinct-{size}"] = round(len(set(grams)) / max(len(grams), 1), 4)
+    return figures

@@ -13,8 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.data.stated import unstated
-from planner_ft.data.tags import WORDS
+from planner_ft.data.labels import WORDS, unstated
 from planner_ft.facts import WAYPOINT, read, read_input
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions

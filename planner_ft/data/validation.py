@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from planner_ft.data.labels import completeness_problems, step_problems, tag_problems
 from planner_ft.data.rules import rule_problems
-from planner_ft.data.stated import completeness_problems, step_problems
-from planner_ft.data.tags import tag_problems
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json, read_text
 from planner_ft.vocabulary import Vocabulary

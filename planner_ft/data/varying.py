@@ -19,7 +19,7 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import in_words
-from planner_ft.data.wordlists import any_things, made_up_name, pseudo_word
+from planner_ft.data.values import any_things, made_up_name, pseudo_word
 from planner_ft.facts.geometry import tidy
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.together import Number

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.data.curated import SPLITS, curated_folder
-from planner_ft.data.tags import unchecked_tags
+from planner_ft.data.labels import unchecked_tags
 from planner_ft.data.templates.checking import checked_templates
 from planner_ft.data.templates.records import template_files, templates
 from planner_ft.data.validation import validate_file

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.curated import find_source
+from planner_ft.data.labels import completeness_problems
 from planner_ft.data.leakage import near_duplicate
-from planner_ft.data.stated import completeness_problems
 from planner_ft.data.validation import canonical_record, record_problems
 from planner_ft.decoding.constraints import RAN_ON, TOO_LONG, UNPAIRED
 from planner_ft.document import PlanDocument

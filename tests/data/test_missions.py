@@ -11,7 +11,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from planner_ft.data.formulas import is_formula, worked_out
+from planner_ft.data.mission_binding import is_formula, worked_out
 from planner_ft.data.missions import MissionSampler, mission_sampler, sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.templates.records import Template, template_files, templates

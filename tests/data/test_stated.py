@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.data.stated import completeness_problems, step_problems, unstated
+from planner_ft.data.labels import completeness_problems, step_problems, unstated
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import Parameter, load_vocabulary
 

@@ -10,9 +10,7 @@ from typing import Any
 import pytest
 
 from planner_ft.data.curated import curated_folder
-from planner_ft.data.leakage import leakage_report
-from planner_ft.data.missions import sample_missions
-from planner_ft.data.tags import (
+from planner_ft.data.labels import (
     ALWAYS_TAGGED,
     TAGS,
     TASKS_OF_TAG,
@@ -22,6 +20,8 @@ from planner_ft.data.tags import (
     tags_of,
     unchecked_tags,
 )
+from planner_ft.data.leakage import leakage_report
+from planner_ft.data.missions import sample_missions
 from planner_ft.data.validation import validate_file
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 
 from planner_ft.data.numbers import Value
 from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.shapes import SHAPES, value_draw
-from planner_ft.data.task.values import Draw
+from planner_ft.data.task.steps import SHAPES, XY, value_draw
 from planner_ft.data.templates.grammar import (
     Argument,
     Call,
@@ -21,9 +20,9 @@ from planner_ft.data.templates.grammar import (
     fail,
 )
 from planner_ft.data.templates.records import Template
+from planner_ft.data.values import Draw
 from planner_ft.vocabulary.definition import Role, Task, Vocabulary
 
-XY = "xy"
 WORDS = ("start", "turn", "axis")
 """Roles that a word of the plan fills: `turn=clockwise`."""
 JOINT = {"Grid": ("width", "length", "spacing", "count"), "Line": ("spacing",)}

@@ -19,11 +19,10 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.binding import XY, Bound, Source, bind
+from planner_ft.data.task.binding import Bound, Source, bind
 from planner_ft.data.task.draw import Context
 from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase, phrase_text
-from planner_ft.data.task.shapes import SHAPES
-from planner_ft.data.task.values import draw_position
+from planner_ft.data.task.steps import SHAPES, XY
 from planner_ft.data.templates.grammar import (
     Argument,
     Call,
@@ -37,6 +36,7 @@ from planner_ft.data.templates.grammar import (
     all_slots,
 )
 from planner_ft.data.templates.records import Template, read_templates
+from planner_ft.data.values import draw_position
 from planner_ft.vocabulary.definition import Role
 
 WORDS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))

@@ -12,30 +12,18 @@ from typing import Any
 from planner_ft.data.numbers import Value, angle, count_text, length, pick, rotation
 from planner_ft.data.task.binding import Bound, Source
 from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase
-from planner_ft.data.task.shapes import DRAWS, SHAPES, grid_size, line_legs
-from planner_ft.data.task.steps import Entry, Plan
-from planner_ft.data.templates.grammar import (
-    Argument,
-    Call,
-    Chosen,
-    Slot,
-    base_of,
-    choose,
-    is_small,
-)
+from planner_ft.data.task.steps import DRAWS, SHAPES, Entry, Plan, grid_size, line_legs
+from planner_ft.data.templates import grammar
+from planner_ft.data.templates.grammar import Argument, Call, Chosen, Slot, base_of
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
 from planner_ft.vocabulary.definition import Task
 
 LINKED = 0.75  # share of stated values that the task's parameters hold too
 REFER = 0.3  # share of values of a clause that stand in the task's parameters alone
 SPACING = 0.85  # share of grids whose stated size the task's parameters hold too
-_WAY = re.compile(
-    r"\b(left|right|port|starboard|clockwise|anticlockwise|counter-clockwise)\b", re.IGNORECASE
-)
+_WAY = re.compile(r"\b(left|right|port|starboard|(anti|counter-)?clockwise)\b", re.IGNORECASE)
 LEFT = (" to the left", " to port", " anticlockwise")
 RIGHT = (" to the right", " to starboard", " clockwise")
-
-
 UNRESOLVED = 0.05  # share of samples whose position is not known yet
 
 
@@ -85,7 +73,7 @@ class Context:
 
     def say(self, phrase: str) -> str:
         """A wording of a phrase without values of the plan."""
-        parts = choose(parse_phrase(phrase), self.rng, [])
+        parts = grammar.choose(parse_phrase(phrase), self.rng, [])
         pieces: list[PIECE] = [
             (part, False) if isinstance(part, str) else (self.word(part.key), True)
             for part in parts
@@ -111,13 +99,13 @@ class Context:
 def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
     """The prompt with its values marked, its plan and skills; None for a draw without a plan."""
     drawing = Drawing(bound, context)
-    text = joined(drawing.pieces(), small=drawing.small and not bound.clause)
+    text = joined(drawing.pieces(), small=grammar.is_small(drawing.parts) and not bound.clause)
     try:
         steps = drawing.plan.steps()
     except (ValueError, ZeroDivisionError):
         return None
     beside = [step[key] for step in steps for key in ("filter_skills", "perception_skills")]
-    if not steps or any(twice(calls) for calls in beside):
+    if not steps or any(map(twice, beside)):
         return None
     return text, {"skill_sequence": steps}, {call["name"] for calls in beside for call in calls}
 
@@ -145,12 +133,9 @@ class Drawing(Chosen):
             if self.rng.random() < share or context.linked(bound.sources[key].place)
         )
         super().__init__(bound.nodes, self.rng, given)
-        self.small = is_small(self.parts)
         for step in bound.steps:
-            if step.call.name == "Grid":
-                self._grid(step.call)
-            elif step.call.name == "Line":
-                self._line(step.call)
+            if step.call.name in ("Grid", "Line"):
+                self._sizes(step.call)
         self.plan = Plan(bound, self.book, self.labels | self.said, self._value)
         for slot in self.slots:
             if not slot.sign and slot.key not in self.values:
@@ -176,21 +161,28 @@ class Drawing(Chosen):
             if argument.kind == "param" and argument.name == "count":
                 context.values[str(argument.value)] = DRAWS["Sectors", "count"](self.rng)
 
-    def _grid(self, call: Call) -> None:
-        """Size and spacing that fill each other, in the slots and in the task's parameters."""
+    def _sizes(self, call: Call) -> None:
+        """Sizes of a grid, or legs of a line, that fill each other, in the slots and in the task's
+        parameters.
+        """
         context, rng = self.context, self.rng
         arguments = {
             argument.name: argument
             for argument in call.arguments
             if argument.kind != "slot" or argument.value in self.said
         }
-        axis: Any = "y"
-        if "axis" in arguments:
-            axis = arguments["axis"].value
-            if arguments["axis"].kind == "slot":
+        links, sizes = context.entry.links, dict[str, float]()
+        if call.name == "Grid":
+            axis: Any = arguments["axis"].value if "axis" in arguments else "y"
+            if "axis" in arguments and arguments["axis"].kind == "slot":
                 self.values[axis] = self.bound.sources[axis].draw(rng)
                 axis = self.values[axis].value
-        for role, size in grid_size(rng, free=axis == "y").items():
+            sizes = grid_size(rng, free=axis == "y")
+        elif not arguments.keys().isdisjoint(("spacing", "count")):
+            count = arguments.get("count")
+            fixed = int(count.value) if count and count.kind == "literal" else None
+            links, sizes = {}, line_legs(fixed, rng)
+        for role, size in sizes.items():
             value = length(size, rng) if role != "count" else Value(size, count_text(size, rng))
             argument = arguments.get(role)
             if argument is not None and argument.kind == "slot":
@@ -198,34 +190,11 @@ class Drawing(Chosen):
             if argument is not None and argument.kind == "param":
                 context.values[str(argument.value)] = value
                 continue
-            name = context.entry.links.get(f"lawnmower.{role}")
+            name = links.get(f"lawnmower.{role}")
             free = name and name not in context.used
             if name and free and (name in context.values or rng.random() < SPACING):
                 context.values[name] = value
                 context.used.add(name)
-
-    def _line(self, call: Call) -> None:
-        """Length and legs that fill it, in the slots and in the task's parameters."""
-        arguments = {
-            argument.name: argument
-            for argument in call.arguments
-            if argument.kind != "slot" or argument.value in self.said
-        }
-        if arguments.keys().isdisjoint(("spacing", "count")):
-            return
-        count = arguments.get("count")
-        fixed = int(count.value) if count and count.kind == "literal" else None
-        for role, size in line_legs(fixed, self.rng).items():
-            argument = arguments.get(role)
-            value = (
-                length(size, self.rng)
-                if role != "count"
-                else Value(size, count_text(size, self.rng))
-            )
-            if argument is not None and argument.kind == "slot":
-                self.values[str(argument.value)] = value
-            elif argument is not None and argument.kind == "param":
-                self.context.values[str(argument.value)] = value
 
     def _draw(self, slot: Slot) -> Value:
         """A value for the slot: the task's own, now and then, or a new one."""

@@ -19,9 +19,8 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from planner_ft.data.task.values import Draw, number_space, value_space
 from planner_ft.data.templates.grammar import Nodes, TemplateError, all_slots, parse_text
-from planner_ft.data.wordlists import FALLBACK, MADE_UP, WordLists
+from planner_ft.data.values import FALLBACK, MADE_UP, Draw, WordLists, number_space, value_space
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import ROLES, Parameter, Skill, Task, Vocabulary

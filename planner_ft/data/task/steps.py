@@ -1,27 +1,193 @@
 """Steps of a skill plan in canonical form: from the skills that run in them, and from a bound
-template once its values are known.
+template once its values are known; and the steps that stand for a whole shape: what each needs, its
+draws, its waypoints or headings.
 """
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import Any
+from random import Random
+from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.task.binding import XY, Bound
-from planner_ft.data.task.phrasebook import Phrasebook
-from planner_ft.data.task.shapes import SHAPES
-from planner_ft.data.templates.grammar import Argument, Call
+from planner_ft.data.numbers import (
+    COMPASS,
+    Value,
+    bearing,
+    count_text,
+    length,
+    pick,
+    position,
+    rotation,
+)
+from planner_ft.data.templates.grammar import Argument, Call, fail
 from planner_ft.data.templates.grammar import Step as Pattern
+from planner_ft.data.values import TABLE, Draw, draw_bearing, draw_number, draw_point, draw_rotation
+from planner_ft.facts import geometry as g
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary.definition import Vocabulary
 from planner_ft.vocabulary.plans import canonical_parameters
 
+if TYPE_CHECKING:
+    from planner_ft.data.task.binding import Bound
+    from planner_ft.data.task.phrasebook import Phrasebook
+
+XY = "xy"
+BEARINGS = {name: degrees for degrees, name in COMPASS.items()}
 Step = tuple[str, dict[str, Any]]
 """A navigation skill and its parameters."""
 Entry = dict[str, Any]
 Beside = tuple[list[Entry], list[Entry]]
 """Filters and perception skills of a step."""
+Values = Mapping[str, Any]
+
+
+def _clockwise(values: Values, default: bool = False) -> bool:
+    return bool(values["turn"] == "clockwise") if "turn" in values else default
+
+
+def _grid(values: Values) -> list[g.Point]:
+    axis: g.Axis = "x" if values.get("axis") == "x" else "y"
+    width, along, start = values["width"], values["length"], values.get("start", "south-west")
+    spacing = values.get("spacing")
+    if spacing is None:
+        spacing = (width if axis == "y" else along) / (values["count"] - 1)
+    return g.lawnmower(values["point"], width, along, spacing, start, axis)
+
+
+def _line(values: Values) -> list[g.Point]:
+    """Start and end, or a waypoint behind every spacing, or behind each of `count` legs."""
+    far = values["length"]
+    legs = int(values.get("count") or round(far / values.get("spacing", far)))
+    ways = (far * number / legs for number in range(1, legs + 1))
+    start = g.point(*values["point"])
+    return [start, *(g.offset(start, values["heading"], way) for way in ways)]
+
+
+def _pass(values: Values) -> list[g.Point]:
+    """Along a side of a structure, from the south or the west."""
+    bearing = BEARINGS.get(values.get("side", ""), 45)
+    if bearing % 90:
+        raise ValueError("a pass needs one of the four sides")
+    middle = g.offset(values["point"], bearing, values["distance"])
+    start = g.offset(middle, (bearing + 90) % 180 + 180, values["length"] / 2)
+    return g.straight_line(start, (bearing + 90) % 180, values["length"])
+
+
+def _square(values: Values) -> list[g.Point]:
+    start, clockwise = values.get("start", "east"), _clockwise(values)
+    return g.survey_square(values["point"], values["radius"], start, clockwise=clockwise)
+
+
+def _ring(values: Values) -> list[g.Point]:
+    start, clockwise = BEARINGS[values.get("start", "east")], _clockwise(values)
+    around = (values["point"], values["radius"], int(values["count"]))
+    return g.circle(*around, start, clockwise=clockwise)
+
+
+def _sectors(values: Values) -> list[float]:
+    clockwise = _clockwise(values, default=True)
+    return g.sector_headings(int(values["count"]), values.get("heading", 0), clockwise=clockwise)
+
+
+EXPAND: Mapping[str, Callable[[Values], Sequence[Any]]] = {
+    "Grid": _grid,
+    "Square": _square,
+    "Ring": _ring,
+    "Line": _line,
+    "Pass": _pass,
+    "Offset": lambda of: [g.offset(of["point"], of["heading"], of["length"])],
+    "Return": lambda of: [of["home"]],
+    "Sectors": _sectors,
+    "Turns": lambda of: [of["delta_yaw"]] * int(of["count"]),
+}
+"""The waypoints or headings of a shape."""
+
+
+class Shape:
+    """`motion` of its steps; `roles`: what it needs, with the place that a task parameter fills
+    (see `links` of the phrase file); `options`: what may be said; `expand`: see EXPAND.
+    """
+
+    def __init__(self, name: str, motion: str, pattern: str, roles: str, options: str) -> None:
+        pairs = (item.partition(":") for item in roles.split())
+        self.roles = {role: f"{pattern}.{name or role}" for role, _colon, name in pairs}
+        self.motion, self.options, self.expand = motion, frozenset(options.split()), EXPAND[name]
+
+
+SHAPES = {name: Shape(name, **entry) for name, entry in TABLE["shapes"].items()}
+
+
+# ---------------------------------------------------------------- values
+
+
+def one_of(options: Sequence[Any]) -> Draw:
+    """A draw of one of some words or counts."""
+
+    def draw(rng: Random) -> Value:
+        option = pick(options, rng)
+        text = option if isinstance(option, str) else count_text(option, rng)
+        return Value(option, text, str(option))
+
+    return draw
+
+
+def direction(rng: Random) -> Value:
+    """A compass direction in words, mostly one of the four: "north", "due south", "south-west"."""
+    degrees = 90 * rng.randrange(4) if rng.random() < 0.8 else 45 + 90 * rng.randrange(4)
+    name = COMPASS[degrees]
+    due = degrees % 90 == 0 and rng.random() < 0.25
+    return Value(degrees, f"due {name}" if due else name, name, way=name)
+
+
+DRAWS: Mapping[tuple[str, str], Draw] = {
+    ("Line", "heading"): lambda rng: bearing(draw_bearing(rng), rng),
+    ("Sectors", "heading"): lambda rng: bearing(pick((0, 0, 45, 90, 180, 270), rng), rng),
+    ("Grid", "compass"): lambda rng: pick(
+        (Value("y", "north-south"), Value("x", "east-west")), rng
+    ),
+    ("any", "point"): lambda rng: position(draw_point(rng), rng),
+    ("any", "radius"): lambda rng: length(draw_number(rng, 4, 60), rng),
+    ("any", "length"): lambda rng: length(draw_number(rng, 5, 150), rng),
+    ("any", "direction"): direction,
+    ("any", "heading"): direction,
+    ("any", "delta_yaw"): lambda rng: rotation(draw_rotation(rng, 90), rng),
+    **{
+        (shape, slot): one_of(options)
+        for shape, slots in TABLE["draws"].items()
+        for slot, options in slots.items()
+    },
+}
+"""By shape, or "any", and slot or role."""
+
+
+def value_draw(shape: str, role: str, base: str) -> Draw:
+    """How the value of a slot in a shape is drawn. Raises TemplateError for one that is not."""
+    by_role = ((shape, role), ("any", role)) if base != "direction" else (("any", base),)
+    keys = (key for key in ((shape, base), *by_role) if key in DRAWS)
+    return DRAWS[next(keys, None) or fail(f"{shape} cannot draw a {role}")]
+
+
+def grid_size(rng: Random, *, free: bool) -> dict[str, float]:
+    """A grid's sizes and lanes, which fit; `free`: its length is no multiple of the spacing."""
+    spacing = pick(TABLE["grid"]["spacing"], rng)
+    width = g.tidy(spacing * (pick(TABLE["grid"]["lanes"], rng) - 1))
+    along = g.tidy(spacing * rng.randrange(1, 11))
+    if free and rng.random() < 0.6:
+        round_ = rng.random() < 0.7
+        along = g.tidy(5 * rng.randrange(1, 31) if round_ else rng.randrange(5, 120))
+    count = g.lane_count(width if free else along, spacing) or 0
+    return {"width": width, "length": along, "spacing": spacing, "count": count}
+
+
+def line_legs(count: int | None, rng: Random) -> dict[str, float]:
+    """The length of a line and its legs, which fill it; `count`: of the legs, where it is set."""
+    spacing = pick(TABLE["line"]["spacing"], rng)
+    count = count or pick(TABLE["draws"]["Line"]["count"], rng)
+    return {"spacing": spacing, "count": count, "length": g.tidy(spacing * count)}
+
+
+# ---------------------------------------------------------------- steps
 
 
 def entry_of(name: str, parameters: Mapping[str, Any], vocabulary: Vocabulary) -> Entry:

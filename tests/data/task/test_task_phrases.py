@@ -8,7 +8,7 @@ from planner_ft.data.task.compose import skill_clause
 from planner_ft.data.task.draw import Context, Drawing
 from planner_ft.data.task.phrasebook import gerund, phrasebook
 from planner_ft.data.templates.render import joined, plain, skeleton
-from planner_ft.data.wordlists import WordLists, made_up_name
+from planner_ft.data.values import WordLists, made_up_name
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
