@@ -6,6 +6,7 @@ demands under [demand] in NAME.missions.toml (docs/data.md, "Clauses").
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from random import Random
@@ -153,11 +154,10 @@ def demanded(name: str, given: dict[str, Any], sampler: MissionSampler) -> tuple
     return f"{text} {where}".rstrip() + ".", (skill.role, name, given)
 
 
+@functools.cache
 def bind_clause(template: Template, sampler: MissionSampler) -> Bound:
     """The clause for this vehicle. Raises TemplateError."""
     vocabulary, used = sampler.vocabulary, set[str]()
-    if (known := template.bound.get(vocabulary)) is not None:
-        return known  # type: ignore[no-any-return]
     demands: dict[str, str] = sampler.config.get("demand", {})
     names = load_limits(vocabulary).keys() | (demands.keys() & vocabulary.skill)
     for call in (step.call for step in template.steps):
@@ -174,5 +174,4 @@ def bind_clause(template: Template, sampler: MissionSampler) -> Bound:
             raise TemplateError(f"there is no task {title}")
     every = all_slots(template.nodes)
     owners = {s.key: (LIMIT, LIMIT.by_name[s.base]) for s in every if s.base in LIMIT.by_name}
-    found = template.bound[vocabulary] = bound(template, sampler.words, used, owners, [])
-    return found
+    return bound(template, sampler.words, used, owners, [])

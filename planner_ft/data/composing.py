@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.clauses import Beside, Clause, Effect, demanded
 from planner_ft.data.drawing import Drawing
-from planner_ft.data.mission_binding import CLAUSE
+from planner_ft.data.mission_binding import CLAUSE, bind
 from planner_ft.data.mission_plan import Intent, Target, label
 from planner_ft.data.numbers import pick
 from planner_ft.data.templates.records import FORMS, Template
@@ -55,9 +55,8 @@ class Composer:
     ) -> None:
         """`clauses` are the records of demands and those of limits."""
         self.sampler, self.rng, self.clauses = sampler, rng, clauses
-        self.drawings = [
-            Drawing(sampler, sampler.bound(template), template, rng) for template in templates
-        ]
+        given = sampler.vocabulary, sampler.words
+        self.drawings = [Drawing(sampler, bind(one, *given), one, rng) for one in templates]
         self.intents = [
             [_renamed(intent, number) for intent in drawing.intents()]
             for number, drawing in enumerate(self.drawings)

@@ -7,22 +7,14 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.filling import UNPLACED, Filling, is_name
-from planner_ft.data.mission_binding import (
-    CLAUSE,
-    IT,
-    OBJECTS,
-    Bound,
-    Line,
-    is_formula,
-    operands,
-    worked_out,
-)
+from planner_ft.data.formulas import is_formula, operands, worked_out
+from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
 from planner_ft.data.mission_plan import Intent, Target, point_text
-from planner_ft.data.numbers import Value, digits, pick, position
+from planner_ft.data.numbers import PLACES, Value, digits, pick, position
 from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, base_of, choose
 from planner_ft.data.templates.records import Template
 from planner_ft.data.templates.render import PIECE, article_for
-from planner_ft.facts.geometry import Point, tidy
+from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Task
 
 if TYPE_CHECKING:
@@ -30,15 +22,6 @@ if TYPE_CHECKING:
 
 BARE = 0.5
 """Share of the sizes before another size that are said without a unit."""
-PLACED = (
-    *(" at {}",) * 26,
-    *(" ({})", ", at {},", " at position {}", " over at {}", " out at {}", ", {},"),
-    " located at {}",
-)
-DOUBTS = (
-    *(" somewhere near {}", " at about {}", " at roughly {}", ", which should be at {},"),
-    *(", probably at {},", " at around {}"),
-)
 JOINTS = (" by ", " x ", "x", " times ")
 
 
@@ -81,24 +64,21 @@ class Drawing(Filling):
 
     def _word(self, slot: Slot, number: int) -> str:
         if slot.base == "P":
-            return self._place(self._place_of(slot.key))
+            return position(self._place_of(slot.key), self.rng, self.form).text
         if slot.base == "ID":
             return self.targets[slot.key].text
         value, (joint, after) = self.values[slot.key], (*self.parts[number + 1 :], "", "")[:2]
         if joint in JOINTS and isinstance(after, Slot) and self.rng.random() < BARE:
             # "20 by 80 ft" says that the 20 are feet.
             sizes = [one for one in (slot, after) if one.base in ("width", "length")]
-            plain_ = [one for one in sizes if not one.options and not one.sign]
-            if len(plain_) == 2 and all(_metric(self.values[one.key].text) for one in plain_):
+            texts = [self.values[one.key].text for one in sizes if not one.options and not one.sign]
+            if len(texts) == 2 and all(map(_metric, texts)):
                 return digits(value.value)
         return self._worded(value, slot)
 
     def _worded(self, value: Value, slot: Slot) -> str:
         text = value.worded(slot.options)
         return str(value.value) if text == value.text and slot.base in self.words else text
-
-    def _place(self, point: Point) -> str:
-        return position(point, self.rng, self.form).text
 
     def _mention(self, target: Target, slot: Slot, *, with_place: bool = False) -> list[PIECE]:
         """The target as it is spoken of; ordinary words are no values: they can be mistyped."""
@@ -113,8 +93,9 @@ class Drawing(Filling):
         named = f"the {text}" if target.article and "bare" not in options else text
         if not with_place or target.position is None:
             return [(named, kept)]
-        form = pick(DOUBTS if target.doubtful else PLACED, self.rng)
-        place, (before, _brace, after) = self._place(target.position), form.partition("{}")
+        form = pick(PLACES["doubtful" if target.doubtful else "known"], self.rng)
+        place = position(target.position, self.rng, self.form).text
+        before, _brace, after = form.partition("{}")
         if before.endswith("(") and place[0] in "[(":
             before, after = " at ", ""
         return [(named, kept), (before, False), (place, True), (after, False)]
@@ -125,9 +106,10 @@ class Drawing(Filling):
         if slot.base == "P":
             right, point = self._place_of(key), self._point()
             near = (right[0], point[1]) if rng.random() < 0.5 else point
-            return [(self._place(near if near != right else point), True)]
+            wrong = near if near != right else point
+            return [(position(wrong, self.rng, self.form).text, True)]
         if slot.base == "T":
-            kind = self._kind(key)
+            kind = self.bound.kinds.get(key, "pair")
             kind = self.sampler.default if kind == "pair" else kind
             return self._mention(self._described(key, kind, bool(slot.options), True), slot)
         if slot.base == "ID":

@@ -8,19 +8,9 @@ from dataclasses import replace
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.mission_binding import (
-    CLAUSE,
-    HOME,
-    LIMIT,
-    WINDS,
-    Bound,
-    Line,
-    directions,
-    is_formula,
-    operands,
-    opposite,
-    worked_out,
-)
+from planner_ft.data import formulas
+from planner_ft.data.formulas import HOME, is_formula, operands, worked_out
+from planner_ft.data.mission_binding import CLAUSE, LIMIT, Bound, Line
 from planner_ft.data.mission_plan import Target, point_text
 from planner_ft.data.numbers import WRITTEN, Value, bearing, knots, pick
 from planner_ft.data.templates.grammar import Chosen, Slot, base_of, fail
@@ -64,8 +54,8 @@ class Filling(Chosen):
         super().__init__(template.nodes, rng)
         chosen = {"", *self.labels, *self.said}
         self.lines = [line for line in bound.lines if line.label in chosen]
-        self.corners = {other: (one, ways) for one, other, ways in opposite(template.plan)}
-        self.winds = directions(template.plan)
+        self.corners = {other: (one, ways) for one, other, ways in formulas.opposite(template.plan)}
+        self.winds = formulas.directions(template.plan)
         self.slots.sort(key=_turn)
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:
@@ -147,9 +137,6 @@ class Filling(Chosen):
         place = self.targets.get(self.bound.places.get(key, ""))
         return place.position if place else None
 
-    def _kind(self, key: str) -> str:
-        return self.bound.kinds.get(key, self.sampler.default)
-
     def _target(self, slot: Slot) -> Target:
         key, rng = slot.key, self.rng
         mentions = [
@@ -160,7 +147,8 @@ class Filling(Chosen):
         lines = [line for line in self.lines if key in line.objects]
         common = any("a" in options for options, _owns in mentions)
         fixed = common or any("bare" in options or owns for options, owns in mentions)
-        kind, near = self._kind(key), next((line.near for line in lines if line.near), "")
+        kind = self.bound.kinds.get(key, self.sampler.default)
+        near = next((line.near for line in lines if line.near), "")
         target = self._alike(key) if kind == "pair" else self._described(key, kind, fixed, common)
         if key in self.bound.places:
             target = replace(target, position=self._bound_place(key))
@@ -221,7 +209,7 @@ class Filling(Chosen):
         if owner is None or owner[1].type in ("text", "texts", "id"):
             return self.words.noun(base_of(key), self.rng)
         if key in self.winds:
-            return bearing(pick(WINDS, self.rng), self.rng)
+            return bearing(pick(formulas.WINDS, self.rng), self.rng)
         value = self.sampler.value(*owner, self.rng)
         if owner[0] is LIMIT:
             if value.noun and base_of(key) == "polygon" and self.rng.random() < BOXED:

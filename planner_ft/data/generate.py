@@ -5,15 +5,15 @@ from __future__ import annotations
 import gc
 import itertools
 import time
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from planner_ft.data.curated import curated_folder, curated_splits, find_source
 from planner_ft.data.leakage import leakage_report
 from planner_ft.data.missions import sample_missions
-from planner_ft.data.output import DataFolder, dataset_card, write_folders
+from planner_ft.data.output import Generated, dataset_card, lines_of, write_sets
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.validation import canonical_record
 from planner_ft.support.errors import PlannerError
@@ -85,17 +85,6 @@ class GenerationSettings:
         return {**asked, "test_unseen": self.test} if level == "task" else asked
 
 
-@dataclass
-class Generated:
-    """One level's result: its folder, records by split, whether it is new, seconds by stage."""
-
-    level: Level
-    folder: Path
-    counts: dict[str, int]
-    written: bool = False
-    seconds: dict[str, float] = field(default_factory=dict)
-
-
 def generate(
     settings: GenerationSettings,
     progress: Progress = lambda _label, _done, _total: None,
@@ -118,12 +107,9 @@ def generate(
     chat = messages if settings.chat else None
     made = [_make(name, settings, vocabulary, progress, chat) for name in sets]
     started = time.perf_counter()
-    written = write_folders([folder for _result, folder in made], overwrite=settings.overwrite)
-    results = [result for result, _folder in made]
-    for result, changed in zip(results, written, strict=True):
-        result.written = changed
-    results[-1].seconds["writing"] = time.perf_counter() - started
-    return results
+    write_sets(made, overwrite=settings.overwrite)
+    made[-1].seconds["writing"] = time.perf_counter() - started
+    return made
 
 
 def _make(
@@ -132,17 +118,15 @@ def _make(
     vocabulary: Vocabulary,
     progress: Progress,
     messages: Messages | None,
-) -> tuple[Generated, DataFolder]:
+) -> Generated:
     """One set: "mission", "task" or the synthetic missions."""
     level: Level = "task" if name == "task" else "mission"
-    result = Generated(level, settings.out / name, {})
-    times, stages = [time.perf_counter()], list[str]()
+    source = find_source(settings.source, vocabulary) if name == "mission" else None
+    made, started = Generated(level, settings.out / name, source), time.perf_counter()
 
     def timed(stage: str) -> None:
-        times.append(time.perf_counter())
-        stages.append(stage)
+        made.seconds[stage] = time.perf_counter() - started - sum(made.seconds.values())
 
-    source = find_source(settings.source, vocabulary) if name == "mission" else None
     if source is None:
         splits, seed = _sampled(name, settings, vocabulary, progress), settings.seed
         timed("sampling and validation")
@@ -151,53 +135,38 @@ def _make(
         audit = vocabulary.bundled and ours
         splits = curated_splits(source, settings.counts("mission"), vocabulary, audit=audit)
         timed("validation and audit")
-    result.counts = {split: len(records) for split, records in splits.items()}
-    texts = {
-        f"{split}.jsonl": _lines(canonical_record(level, record, vocabulary) for record in records)
-        for split, records in splits.items()
-    }
-    leakage = None
+    leakage, labelling = None, ""
+    for split, records in splits.items():
+        lines = (canonical_record(level, record, vocabulary) for record in records)
+        made.counts[split], made.texts[f"{split}.jsonl"] = len(records), lines_of(lines)
     if name != SYNTHETIC:
         leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
-        texts["leakage.json"] = indented_json(leakage)
+        made.texts["leakage.json"] = indented_json(leakage)
         timed("leakage report")
-    written = source / ABOUT if source else None
-    labelling = read_text(written).strip() if written and written.is_file() else ""
+    if source and (source / ABOUT).is_file():
+        labelling = read_text(source / ABOUT).strip()
     about = level, splits, vocabulary, leakage, seed, labelling
-    texts["README.md"] = dataset_card(*about, chat=messages is not None)
-    for split, records in splits.items():
-        if messages is None:
-            break
+    made.texts["README.md"] = dataset_card(*about, chat=messages is not None)
+    for split, records in splits.items() if messages else ():
         chats = ((record["id"], messages(level, record, vocabulary)) for record in records)
-        texts[f"chat/{split}.jsonl"] = _lines(itertools.starmap(_chat, chats))
+        made.texts[f"chat/{split}.jsonl"] = lines_of(itertools.starmap(_chat, chats))
     timed("card and serialisation")
-    starts = zip(stages, itertools.pairwise(times), strict=True)
-    result.seconds = {stage: end - start for stage, (start, end) in starts}
-    chat = messages is not None
-    configuration = _configuration(name, result, settings, vocabulary, chat=chat)
-    files: dict[str, Path | str] = {}
-    if source:
-        files = {split: source / f"{split}.jsonl" for split in splits}
-    manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=files)
-    return result, DataFolder(result.folder, texts, manifest, source)
-
-
-def _configuration(
-    name: str, made: Generated, settings: GenerationSettings, vocabulary: Vocabulary, *, chat: bool
-) -> dict[str, Any]:
-    """What the manifest of a set says about how it was made."""
     configuration: dict[str, Any] = {
-        "level": made.level,
+        "level": level,
         "counts": made.counts,
         "vocabulary": vocabulary.name,
         "vocabulary_sha256": vocabulary.sha256,
-        "chat": chat,
+        "chat": messages is not None,
     }
     if name == "task":
         configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
     elif name == SYNTHETIC:
         configuration["synthetic"] = settings.synthetic
-    return configuration
+    files: dict[str, Path | str] = {}
+    if source:
+        files = {split: source / f"{split}.jsonl" for split in splits}
+    made.manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=files)
+    return made
 
 
 def _chat(id_: str, chat: list[dict[str, str]]) -> str:
@@ -210,8 +179,7 @@ def _sampled(
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     synthetic, defaults = name == SYNTHETIC, DEFAULT_COUNTS["task"]
-    asked: dict[Any, int | None] = settings.counts("task")
-    asked = {"train": settings.synthetic} if synthetic else asked
+    asked = {"train": settings.synthetic} if synthetic else settings.counts("task")
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():
@@ -233,7 +201,3 @@ def _sampled(
     finally:
         gc.enable()
     return splits
-
-
-def _lines(lines: Iterable[str]) -> str:
-    return "".join(f"{line}\n" for line in lines)

@@ -17,7 +17,7 @@ from typing import Any
 
 from planner_ft.data.clauses import Beside
 from planner_ft.data.composing import Command, Composer
-from planner_ft.data.mission_binding import HOME, Bound, bind
+from planner_ft.data.mission_binding import HOME
 from planner_ft.data.mission_plan import PlanTexts
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import Value, feet, knots, pick
@@ -142,13 +142,6 @@ class MissionSampler:
             return Composer(self, made, rng, records).command(clauses)
         except TemplateError as error:
             raise (only or made[0]).error(error) from None
-
-    def bound(self, template: Template) -> Bound:
-        """The template for this vehicle. Raises TemplateError."""
-        found: Bound | None = template.bound.get(self.vocabulary)
-        if found is None:
-            found = template.bound[self.vocabulary] = bind(template, self.vocabulary, self.words)
-        return found
 
     def value(self, task: Task, parameter: Parameter, rng: Random) -> Value:
         """A value of a parameter, with its words."""

@@ -6,7 +6,6 @@ Texts have their values marked (`render.VALUE_OPEN`), and no change touches a va
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -17,11 +16,7 @@ from planner_ft.support.files import read_json
 
 MARKS = ",.;:!?"
 Change = Callable[[list[PIECE], Random], list[PIECE]]
-
-
-@functools.cache
-def _lists() -> dict[str, Any]:
-    return dict(read_json(Path(__file__).parent / "noise.json"))
+LISTS: dict[str, Any] = read_json(Path(__file__).with_suffix(".json"))
 
 
 def noisy(text: str, rng: Random, *, keep: frozenset[str] = frozenset(), shout: bool = True) -> str:
@@ -62,26 +57,22 @@ def _each(pieces: list[PIECE], change: Callable[[str], str]) -> list[PIECE]:
 def _free(word: str) -> bool:
     """Whether a word may be mistyped: an ordinary one in small letters."""
     bare = word.strip(MARKS)
-    return len(bare) > 3 and bare.isalpha() and bare.islower() and bare not in _lists()["kept"]
+    return len(bare) > 3 and bare.isalpha() and bare.islower() and bare not in LISTS["kept"]
 
 
-def mistype(word: str, rng: Random) -> str:
+def _mistyped(word: str, rng: Random) -> str:
     """The word of four letters or more with one slip of the fingers; first letter kept."""
-    roll, index = rng.random(), rng.randint(1, len(word) - 2)
-    before, letter, after = word[:index], word[index], word[index + 1 :]
+    core = word.rstrip(MARKS)
+    roll, index = rng.random(), rng.randint(1, len(core) - 2)
+    before, letter, after = core[:index], core[index], word[index + 1 :]
     if roll < 0.4:
         return before + after[0] + letter + after[1:]
     if roll < 0.62:
         return before + after
     if roll < 0.78:
         return before + letter + letter + after
-    near = _lists()["keys"].get(letter) if roll < 0.92 else None
+    near = LISTS["keys"].get(letter) if roll < 0.92 else None
     return before + (rng.choice(near) if near else letter + rng.choice("aeiou")) + after
-
-
-def _mistyped(word: str, rng: Random) -> str:
-    core = word.rstrip(MARKS)
-    return mistype(core, rng) + word[len(core) :]
 
 
 def slipped(pieces: list[PIECE], rng: Random) -> list[PIECE]:
@@ -105,7 +96,7 @@ def garbled(pieces: list[PIECE], rng: Random) -> list[PIECE]:
 
 def shortened(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """As it is thumbed into a telephone."""
-    rate, short = rng.choice((0.3, 0.6, 0.9)), _lists()["short"]
+    rate, short = rng.choice((0.3, 0.6, 0.9)), LISTS["short"]
     changed = _each(
         pieces, lambda word: short[word] if word in short and rng.random() < rate else word
     )
@@ -137,7 +128,7 @@ def dictated(pieces: list[PIECE], rng: Random) -> list[PIECE]:
 def telegraphed(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """Without articles and "please"; with STOP for the stops now and then."""
     changed: list[PIECE] = []
-    stops, little = rng.random() < 0.2, _lists()["little"]
+    stops, little = rng.random() < 0.2, LISTS["little"]
     for word, stays in pieces:
         doubled = word == " " and (not changed or changed[-1][0] == " ")
         if not doubled and (stays or word.lower() not in little):
@@ -149,12 +140,12 @@ def telegraphed(pieces: list[PIECE], rng: Random) -> list[PIECE]:
 
 def greeted(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """With a greeting ahead, unless there is one."""
-    lists, (first, stays) = _lists(), pieces[0]
+    first, stays = pieces[0]
     low = first.strip(",.!:;").lower()
-    if low in lists["greeted"]:
+    if low in LISTS["greeted"]:
         return pieces
-    greeting = rng.choice(lists["greetings"])
-    if not stays and low in lists["starts"]:
+    greeting = rng.choice(LISTS["greetings"])
+    if not stays and low in LISTS["starts"]:
         return [(f"{greeting}, {first[0].lower()}{first[1:]}", False), *pieces[1:]]
     return [(f"{greeting}. ", False), *pieces]
 
@@ -162,7 +153,7 @@ def greeted(pieces: list[PIECE], rng: Random) -> list[PIECE]:
 def signed(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """With a word of farewell."""
     joint = " " if pieces[-1][0][-1] in ".?!" else ". "
-    return [*pieces, (joint + rng.choice(_lists()["farewells"]), False)]
+    return [*pieces, (joint + rng.choice(LISTS["farewells"]), False)]
 
 
 CHANGES: tuple[tuple[float, Change], ...] = (

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from planner_ft.facts.geometry import Point, tidy
 from planner_ft.facts.lists import COMPASS as POINTS
+from planner_ft.facts.lists import SMALL
 
 T = TypeVar("T")
 _FIELD = re.compile(r"\{(\w+)\}")
@@ -26,14 +27,17 @@ def words(text: str) -> tuple[str, ...]:
 
 
 _SAID: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
-ONES = words(
-    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen"
-    " fifteen sixteen seventeen eighteen nineteen"
-)
-TENS = words("zero ten twenty thirty forty fifty sixty seventy eighty ninety")
+ONES = tuple(SMALL)[:20]
+TENS = ("zero", "ten", *tuple(SMALL)[20:28])
 COMPASS = {45 * number: name for number, name in enumerate(POINTS[::2])}
-WRITTEN = tuple(form for form, often in _SAID["written"].items() for _ in range(often))
-"""Forms of a written position, the usual ones more often."""
+PLACES: dict[str, tuple[str, ...]] = {
+    sense: tuple(form for form, often in forms.items() for _ in range(often))
+    for sense, forms in _SAID["places"].items()
+}
+WRITTEN = PLACES["written"]
+"""Forms of a written position, the usual ones more often; of the place of a target that is `known`
+or `doubtful`.
+"""
 
 
 @dataclass(frozen=True)
@@ -99,11 +103,6 @@ def pick(options: Sequence[T], rng: Random) -> T:
     return options[int(rng.random() * len(options))]
 
 
-def many(number: float, unit: str) -> str:
-    """The unit, in the plural unless there is one."""
-    return unit if number == 1 else f"{unit}s"
-
-
 # ---------------------------------------------------------------- numbers.toml
 
 
@@ -129,18 +128,18 @@ def _worded(sense: str, value: Any, fields: dict[str, str], rng: Random) -> Valu
     return Value(value, **said)
 
 
+def _ending(number: float) -> str:
+    return "" if number == 1 else "s"
+
+
 def _size(value: float, rng: Random, unit: str = "") -> dict[str, str]:
     """Fields of a size: {n} in figures, {c} as a count, {w} a small one in words, {s} the ending of
     the unit; `unit` is put behind their names.
     """
-    fields = {
-        "n" + unit: digits(value),
-        "c" + unit: count_text(value, rng),
-        "s" + unit: many(value, ""),
-    }
+    fields = {"n": digits(value), "c": count_text(value, rng), "s": _ending(value)}
     if isinstance(value, int) and 0 < value <= 20:
-        fields["w" + unit] = in_words(value)
-    return fields
+        fields["w"] = in_words(value)
+    return {key + unit: text for key, text in fields.items()}
 
 
 def _own(value: float, rng: Random, table: str) -> dict[str, str]:
@@ -166,9 +165,9 @@ def duration(value: float, rng: Random) -> Value:
     elif value and not seconds and value < 7200:
         fields |= _size(int(value // 60), rng, "_min")
     if hours and minutes and not seconds:
-        fields |= {"hours": str(hours), "minutes": str(minutes), "s_h": many(hours, "")}
+        fields |= {"hours": str(hours), "minutes": str(minutes), "s_h": _ending(hours)}
     elif 60 < value < 900 and seconds and value % 15 == 0:
-        fields |= {"minutes": str(minutes), "seconds": digits(seconds), "s_min": many(minutes, "")}
+        fields |= {"minutes": str(minutes), "seconds": digits(seconds), "s_min": _ending(minutes)}
     if 60 < value < 900 and value % 30 == 0:
         fields["halves"] = digits(value / 60)
     return _worded("duration", value, fields, rng)

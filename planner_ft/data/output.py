@@ -9,8 +9,8 @@ from __future__ import annotations
 import itertools
 import json
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,14 @@ from planner_ft.data.leakage import mask
 from planner_ft.facts import words
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json, sha256_file, sha256_text, write_json, write_text
+from planner_ft.support.files import (
+    compact_json,
+    sha256_file,
+    sha256_text,
+    write_json,
+    write_text,
+    writing,
+)
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 
@@ -33,50 +40,52 @@ QUANTILES = (0, 50, 90, 100)
 FAMILIES = 40
 
 
-@dataclass(frozen=True)
-class DataFolder:
-    """Files of a level by name below `folder`, and the manifest that goes with them, without its
-    outputs.
+@dataclass
+class Generated:
+    """One set: its folder, records by split, seconds by stage and whether it is new; `texts` are
+    its files by name, `manifest` what goes with them, without its outputs.
 
     Where `source` is the folder itself, its curated files are left alone as long as they say the
     same.
     """
 
+    level: Level
     folder: Path
-    texts: dict[str, str]
-    manifest: dict[str, Any]
-    source: Path | None = None
+    source: Path | None
+    counts: dict[str, int] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)
+    manifest: dict[str, Any] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=dict)
+    written: bool = False
 
 
-def write_folders(folders: Sequence[DataFolder], *, overwrite: bool) -> list[bool]:
-    """Write the folders; for each, whether anything was written or it was up to date.
+def write_sets(sets: Sequence[Generated], *, overwrite: bool) -> None:
+    """Write the sets that are not up to date.
 
     Raises PlannerError, before anything is written, when a file exists that says something else and
     `overwrite` is not set.
     """
-    pending = [_pending(folder) for folder in folders]
-    for folder, (_texts, replaced) in zip(folders, pending, strict=True):
+    pending = [_pending(made) for made in sets]
+    for made, (_texts, replaced) in zip(sets, pending, strict=True):
         if replaced and not overwrite:
             raise PlannerError(
-                f"{folder.folder}: {replaced[0]} exists and is different; give another --out, or"
+                f"{made.folder}: {replaced[0]} exists and is different; give another --out, or"
                 " --overwrite to replace it"
             )
-    written = []
-    for folder, (texts, _replaced) in zip(folders, pending, strict=True):
+    for made, (texts, _replaced) in zip(sets, pending, strict=True):
+        made.written = bool(texts)
         if texts:
-            _write(folder, texts)
-        written.append(bool(texts))
-    return written
+            _write(made, texts)
 
 
-def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
+def _pending(made: Generated) -> tuple[dict[str, str], list[str]]:
     """Texts to be written, and the names of those that replace others. Raises PlannerError where
     records of the curated source itself would be cut.
     """
-    in_place = folder.source is not None and folder.source.resolve() == folder.folder.resolve()
+    in_place = made.source is not None and made.source.resolve() == made.folder.resolve()
     texts, replaced = {}, []
-    for name, text in folder.texts.items():
-        path = folder.folder / name
+    for name, text in made.texts.items():
+        path = made.folder / name
         present = _present(path)
         records = in_place and "/" not in name and name.endswith(".jsonl")
         if present == text or (present and records and _canonical(present) == text):
@@ -88,7 +97,7 @@ def _pending(folder: DataFolder) -> tuple[dict[str, str], list[str]]:
                 raise PlannerError(
                     f"{path} is the curated source and would be cut; give another --out"
                 )
-    if not texts and _present(folder.folder / MANIFEST) is None:
+    if not texts and _present(made.folder / MANIFEST) is None:
         texts[MANIFEST] = ""
     return texts, replaced
 
@@ -102,29 +111,32 @@ def _present(path: Path) -> str | None:
 
 def _canonical(text: str) -> str:
     """The records of a curated file without white space that means nothing."""
-    lines = (line for line in text.split("\n") if line.strip())
-    return "".join(f"{compact_json(json.loads(line))}\n" for line in lines)
+    return lines_of(compact_json(json.loads(line)) for line in text.split("\n") if line.strip())
 
 
-def _write(folder: DataFolder, texts: dict[str, str]) -> None:
+def lines_of(lines: Iterable[str]) -> str:
+    """A text of these lines."""
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _write(made: Generated, texts: dict[str, str]) -> None:
     """Stage all files beside the target, then move them in: a full disk leaves it as it was."""
     names = [*(name for name in texts if name != MANIFEST), MANIFEST]
     digests = {
-        name: sha256_text(text) if name in texts else sha256_file(folder.folder / name)
-        for name, text in folder.texts.items()
+        name: sha256_text(text) if name in texts else sha256_file(made.folder / name)
+        for name, text in made.texts.items()
     }
-    try:
-        with alone(folder.folder, "--out", "gen-data"), staging(folder.folder) as staged:
-            for name in names[:-1]:
-                write_text(staged / name, texts[name])
-            write_json(staged / MANIFEST, {**folder.manifest, "outputs": digests})
-            for name in names:
-                (folder.folder / name).parent.mkdir(parents=True, exist_ok=True)
-                (staged / name).replace(folder.folder / name)
-    except OSError as error:
-        raise PlannerError(
-            f"{folder.folder}: cannot be written ({error.strerror or error}); choose another --out"
-        ) from None
+    with (
+        writing(made.folder, "choose another --out"),
+        alone(made.folder, "--out", "gen-data"),
+        staging(made.folder) as staged,
+    ):
+        for name in names[:-1]:
+            write_text(staged / name, texts[name])
+        write_json(staged / MANIFEST, {**made.manifest, "outputs": digests})
+        for name in names:
+            (made.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (staged / name).replace(made.folder / name)
 
 
 # ---------------------------------------------------------------- the card

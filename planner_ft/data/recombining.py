@@ -15,22 +15,9 @@ from planner_ft.data.rules import rule_problems
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Vocabulary
 
-LINKS: tuple[str, ...] = (
-    ". Then ",
-    ". After that ",
-    ", then ",
-    "; then ",
-    ". Next, ",
-    ". ",
-    "; ",
-    " - ",
-    " > ",
-)
-FIRST: tuple[str, ...] = (
-    ", but first ",
-    ". Before that, ",
-    ". But before that, ",
-    "; before that ",
+LINKS = (". Then ", ". After that ", ", then ", "; then ", ". Next, ", ". ", "; ", " - ", " > ")
+FIRST = (
+    *(", but first ", ". Before that, ", ". But before that, ", "; before that "),
     ". First, though, ",
 )
 """Links behind which stands what is to be done first."""

@@ -11,7 +11,8 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from planner_ft.data.mission_binding import is_formula, worked_out
+from planner_ft.data.formulas import is_formula, worked_out
+from planner_ft.data.mission_binding import bind
 from planner_ft.data.missions import MissionSampler, mission_sampler, sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.templates.records import Template, template_files, templates
@@ -58,7 +59,7 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
     exceptions = 0
     unread: list[str] = []
     for number, line in enumerate(lines):
-        bound = sampler.bound(line)
+        bound = bind(line, sampler.vocabulary, sampler.words)
         literal = {
             fill.parameter.name
             for item in bound.lines

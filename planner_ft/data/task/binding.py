@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
@@ -9,16 +10,8 @@ from typing import Any, NamedTuple
 from planner_ft.data.numbers import Value
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.steps import SHAPES, XY, value_draw
-from planner_ft.data.templates.grammar import (
-    Argument,
-    Call,
-    Nodes,
-    Step,
-    TemplateError,
-    all_slots,
-    base_of,
-    fail,
-)
+from planner_ft.data.templates import grammar
+from planner_ft.data.templates.grammar import Argument, Call, Step, TemplateError, all_slots, fail
 from planner_ft.data.templates.records import Template
 from planner_ft.data.values import Draw
 from planner_ft.vocabulary.definition import Role, Task, Vocabulary
@@ -42,7 +35,7 @@ class Bound:
     """A template that can be drawn for one task. Every argument of its steps has a name."""
 
     template: Template
-    nodes: Nodes = ()
+    nodes: grammar.Nodes = ()
     steps: list[Step] = field(default_factory=list)
     everywhere: Step | None = None
     front: bool = False
@@ -71,21 +64,18 @@ def titles(template: Template, vocabulary: Vocabulary) -> Sequence[str]:
     return list(vocabulary.task) if "*" in template.tasks else template.tasks
 
 
+@functools.cache
 def binding(template: Template, title: str, book: Phrasebook) -> Bound | None:
     """The template for this task; None where it names no task ("*") and this one lacks what it
     needs. Raises PlannerError where a task that it names does not fit.
     """
-    key = book.vocabulary, title
-    if key not in template.bound:
-        try:
-            task = book.vocabulary.task.get(title) or fail(f"there is no task {title}")
-            template.bound[key] = bind(template, task, book)
-        except TemplateError as error:
-            if "*" not in template.tasks:
-                raise template.error(error) from None
-            template.bound[key] = None
-    found: Bound | None = template.bound[key]
-    return found
+    try:
+        task = book.vocabulary.task.get(title) or fail(f"there is no task {title}")
+        return bind(template, task, book)
+    except TemplateError as error:
+        if "*" in template.tasks:
+            return None
+        raise template.error(error) from None
 
 
 def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
@@ -142,7 +132,7 @@ class _Binder:
 
     def _name(self, argument: Argument, place: str) -> str:
         """The parameter or role that an argument fills; `place` is the one for a position."""
-        base = base_of(str(argument.value))
+        base = grammar.base_of(str(argument.value))
         known = argument.kind == "param" and self.parameter(str(argument.value))
         return argument.name or (place if place and (known or base == "P") else base)
 
@@ -187,7 +177,7 @@ class _Binder:
                 argument = replace(argument, kind="literal")
             elif argument.kind == "slot":
                 joint = role in JOINT.get(call.name, ())
-                draw = _no_draw if joint else value_draw(call.name, role, base_of(value))
+                draw = _no_draw if joint else value_draw(call.name, role, grammar.base_of(value))
                 self._use(value, Source(draw, shape.roles.get(role, "")))
             arguments.append(replace(argument, name=role))
         given = {argument.name for argument in arguments}

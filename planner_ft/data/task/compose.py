@@ -23,18 +23,8 @@ from planner_ft.data.task.binding import Bound, Source, bind
 from planner_ft.data.task.draw import Context
 from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase, phrase_text
 from planner_ft.data.task.steps import SHAPES, XY
-from planner_ft.data.templates.grammar import (
-    Argument,
-    Call,
-    Chosen,
-    Node,
-    Nodes,
-    Part,
-    Slot,
-    Step,
-    TemplateError,
-    all_slots,
-)
+from planner_ft.data.templates import grammar
+from planner_ft.data.templates.grammar import Argument, Call, Nodes, Slot, Step, all_slots
 from planner_ft.data.templates.records import Template, read_templates
 from planner_ft.data.values import draw_position
 from planner_ft.vocabulary.definition import Role
@@ -99,7 +89,7 @@ def pattern_clause(
         held = (word for word, key in words if not key or re.search(rf"{{{key}\b", text))
         template, slots = _template(book, text, " ".join(held), number)
         bound = bind(template, book.vocabulary.task[title], book)
-    except (KeyError, TemplateError):
+    except (KeyError, grammar.TemplateError):
         return None
     bound.clause = True
     for key, own in slots:
@@ -142,7 +132,7 @@ def composed(context: Context) -> tuple[str, Bound] | None:
     rng, book = context.rng, context.book
     filler = _Filler(context)
     frame = pick(frames(unseen=book.unseen)[filler.movements()], rng)
-    chosen = Chosen(frame.nodes, rng)
+    chosen = grammar.Chosen(frame.nodes, rng)
     if not filler.fill(chosen.slots):
         return None
     nodes = itertools.chain(*(filler.nodes(part) for part in chosen.parts))
@@ -191,7 +181,7 @@ class _Filler:
                 self.clauses[slot.key] = list(self._group(slot.base, form))
         return all(self.clauses.values())
 
-    def nodes(self, part: Part) -> Iterator[Node]:
+    def nodes(self, part: grammar.Part) -> Iterator[grammar.Node]:
         """What stands in the prompt for a part of the frame."""
         if isinstance(part, str):
             yield part

@@ -110,8 +110,7 @@ class _Draws:
         """One record without id from a whole-prompt template."""
         template = pick(pick(self.templates, self.rng), self.rng)
         title = pick(titles(template, self.book.vocabulary), self.rng)
-        bound = binding(template, title, self.book)
-        if bound is None:
+        if (bound := binding(template, title, self.book)) is None:
             return None
         context = Context(self.book, self.book.vocabulary.task[title], self.rng)
         if (drawn := draw_template(bound, context)) is None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
@@ -50,8 +50,6 @@ class Template:
     excluded: tuple[str, ...] = ()
     constraints: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
-    bound: dict[Any, Any] = field(default_factory=dict)
-    """What drawing has worked out for a vehicle's tasks."""
 
     @functools.cached_property
     def nodes(self) -> Nodes:

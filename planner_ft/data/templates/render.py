@@ -79,14 +79,10 @@ def joined(pieces: Iterable[PIECE], *, small: bool = False) -> str:
             text = f"{text[: -len(last) - 1]}{last[:-1] if low == 'an' else last}"
             text += f"{article_for(piece)[1:]} "
         text += f"{VALUE_OPEN}{piece}{VALUE_CLOSE}" if value else piece
-    text = tidied(text)
-    return text if small else _START.sub(_raised, text)
-
-
-def tidied(text: str) -> str:
-    """No doubled spaces or commas, no space before a mark, no comma before a stop."""
+    # No doubled spaces or commas, no space before a mark, no comma before a stop.
     text = _DOUBLED.sub("", _GAP.sub("", text)).strip(" ,")
-    return f"{text[:-2]}." if text.endswith(" .") else text
+    text = f"{text[:-2]}." if text.endswith(" .") else text
+    return text if small else _START.sub(_raised, text)
 
 
 def _raised(match: re.Match[str]) -> str:
