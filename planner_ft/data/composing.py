@@ -14,6 +14,7 @@ from planner_ft.data.drawing import Drawing
 from planner_ft.data.mission_binding import CLAUSE, bind
 from planner_ft.data.mission_plan import Intent, Target, label
 from planner_ft.data.numbers import pick
+from planner_ft.data.templates.grammar import is_small
 from planner_ft.data.templates.records import FORMS, Template
 from planner_ft.data.templates.render import PIECE, joined
 
@@ -185,7 +186,7 @@ class Composer:
         if self.after:
             inner, mark = _open(pieces)
             pieces = [*inner, (mark or ".", False), *self.after]
-        return joined(pieces, small=self.drawings[0].small and not self.before)
+        return joined(pieces, small=is_small(self.drawings[0].template.nodes) and not self.before)
 
     def _plan(self) -> tuple[dict[str, Any], list[list[Beside]]]:
         texts, config = self.sampler.texts, self.sampler.config

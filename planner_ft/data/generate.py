@@ -16,14 +16,8 @@ from planner_ft.data.missions import sample_missions
 from planner_ft.data.output import Generated, dataset_card, lines_of, write_sets
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.validation import canonical_record
+from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import (
-    check_writable,
-    compact_json,
-    indented_json,
-    read_text,
-    sha256_text,
-)
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
@@ -98,7 +92,7 @@ def generate(
     be met, or the folder cannot be written.
     """
     vocabulary = load_vocabulary(settings.vocabulary)
-    check_writable(settings.out)
+    files.check_writable(settings.out)
     curated = settings.source or curated_folder(vocabulary)
     sets: list[str] = [
         level for level in settings.levels if level == "task" or not settings.synthetic or curated
@@ -141,13 +135,15 @@ def _make(
         made.counts[split], made.texts[f"{split}.jsonl"] = len(records), lines_of(lines)
     if name != SYNTHETIC:
         leakage = leakage_report(level, splits, lambda step: progress(f"{level}: {step}", 0, 0))
-        made.texts["leakage.json"] = indented_json(leakage)
+        made.texts["leakage.json"] = files.indented_json(leakage)
         timed("leakage report")
     if source and (source / ABOUT).is_file():
-        labelling = read_text(source / ABOUT).strip()
+        labelling = files.read_text(source / ABOUT).strip()
     about = level, splits, vocabulary, leakage, seed, labelling
     made.texts["README.md"] = dataset_card(*about, chat=messages is not None)
-    for split, records in splits.items() if messages else ():
+    for split, records in splits.items():
+        if messages is None:
+            break
         chats = ((record["id"], messages(level, record, vocabulary)) for record in records)
         made.texts[f"chat/{split}.jsonl"] = lines_of(itertools.starmap(_chat, chats))
     timed("card and serialisation")
@@ -159,19 +155,21 @@ def _make(
         "chat": messages is not None,
     }
     if name == "task":
-        configuration["phrases_sha256"] = sha256_text(compact_json(vocabulary.phrases))
+        configuration["phrases_sha256"] = files.sha256_text(files.compact_json(vocabulary.phrases))
     elif name == SYNTHETIC:
         configuration["synthetic"] = settings.synthetic
-    files: dict[str, Path | str] = {}
+    inputs: dict[str, Path | str] = {}
     if source:
-        files = {split: source / f"{split}.jsonl" for split in splits}
-    made.manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=files)
+        inputs = {split: source / f"{split}.jsonl" for split in splits}
+    made.manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=inputs)
     return made
 
 
 def _chat(id_: str, chat: list[dict[str, str]]) -> str:
     """For other trainers: all messages, and the answer apart from what comes before it."""
-    return compact_json({"id": id_, "messages": chat, "prompt": chat[:-1], "completion": chat[-1:]})
+    return files.compact_json(
+        {"id": id_, "messages": chat, "prompt": chat[:-1], "completion": chat[-1:]}
+    )
 
 
 def _sampled(
@@ -179,7 +177,8 @@ def _sampled(
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     synthetic, defaults = name == SYNTHETIC, DEFAULT_COUNTS["task"]
-    asked = {"train": settings.synthetic} if synthetic else settings.counts("task")
+    asked: dict[Any, int | None] = settings.counts("task")
+    asked = {"train": settings.synthetic} if synthetic else asked
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():

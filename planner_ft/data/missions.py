@@ -17,7 +17,7 @@ from typing import Any
 
 from planner_ft.data.clauses import Beside
 from planner_ft.data.composing import Command, Composer
-from planner_ft.data.mission_binding import HOME
+from planner_ft.data.formulas import HOME
 from planner_ft.data.mission_plan import PlanTexts
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import Value, feet, knots, pick

@@ -19,16 +19,10 @@ import numpy as np
 from planner_ft.data.labels import TAGS, tags_of
 from planner_ft.data.leakage import mask
 from planner_ft.facts import words
+from planner_ft.support import files
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import (
-    compact_json,
-    sha256_file,
-    sha256_text,
-    write_json,
-    write_text,
-    writing,
-)
+from planner_ft.support.files import compact_json, sha256_file, sha256_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 
@@ -127,13 +121,13 @@ def _write(made: Generated, texts: dict[str, str]) -> None:
         for name, text in made.texts.items()
     }
     with (
-        writing(made.folder, "choose another --out"),
+        files.writing(made.folder, "choose another --out"),
         alone(made.folder, "--out", "gen-data"),
         staging(made.folder) as staged,
     ):
         for name in names[:-1]:
-            write_text(staged / name, texts[name])
-        write_json(staged / MANIFEST, {**made.manifest, "outputs": digests})
+            files.write_text(staged / name, texts[name])
+        files.write_json(staged / MANIFEST, {**made.manifest, "outputs": digests})
         for name in names:
             (made.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (staged / name).replace(made.folder / name)

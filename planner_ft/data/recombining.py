@@ -40,10 +40,10 @@ def joined(
         return None
     if len(tasks) > MOST_TASKS or _named(plans[0], vocabulary) & _named(plans[1], vocabulary):
         return None
-    links, said = LINKS, [first["prompt"].strip(), second["prompt"].strip()]
-    if rng.random() < BACKWARDS:
-        links, said = FIRST, said[::-1]
-    link, (before, behind) = rng.choice(links), said
+    before, behind = first["prompt"].strip(), second["prompt"].strip()
+    if backwards := rng.random() < BACKWARDS:
+        before, behind = behind, before
+    link = rng.choice(FIRST if backwards else LINKS)
     if link != ". " and behind[1:2].islower():
         behind = behind[0].lower() + behind[1:]
     assumptions = [text for plan in plans for text in plan["assumptions"]]

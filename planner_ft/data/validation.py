@@ -17,16 +17,8 @@ from planner_ft.data.labels import completeness_problems, step_problems, tag_pro
 from planner_ft.data.rules import rule_problems
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json, read_text
-from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import (
-    LEVELS,
-    STEP_KEYS,
-    Level,
-    canonical_parameters,
-    canonical_plan,
-    list_key,
-    plan_problems,
-)
+from planner_ft.vocabulary import Vocabulary, plans
+from planner_ft.vocabulary.plans import LEVELS, STEP_KEYS, Level, list_key, plan_problems
 from planner_ft.vocabulary.schema import ELEMENTS
 
 Kind = Literal["record", "prediction", "plan"]
@@ -97,10 +89,10 @@ def validate_file(
 
 def canonical_record(level: Level, record: dict[str, Any], vocabulary: Vocabulary) -> str:
     """The line of a valid record as gen-data writes it: keys in order, canonical plan."""
-    values = {**record, "expected": canonical_plan(level, record["expected"], vocabulary)}
+    values = {**record, "expected": plans.canonical_plan(level, record["expected"], vocabulary)}
     if level == "task":
         owner = vocabulary.task[record["task"]]
-        values["parameters"] = canonical_parameters(record["parameters"], owner)
+        values["parameters"] = plans.canonical_parameters(record["parameters"], owner)
     known = [key for key in RECORD_KEYS if key in values]
     return compact_json({key: values[key] for key in dict.fromkeys((*known, *values))})
 

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import numpy as np
 import torch
@@ -156,8 +155,7 @@ def write_grid(shard: Path, width: int, seed: int) -> Path:
     grid = grid_of(*load_shard(shard), width, seed)
     path = shard.with_suffix(".grid.npz")
     with atomic_writer(path, "wb") as stream:
-        held: dict[str, Any] = {name: getattr(grid, name) for name in FIELDS}
-        np.savez(stream, **held)
+        np.savez(stream, **vars(grid))
     return path
 
 

@@ -156,8 +156,9 @@ class View:
         return {"prompt": record["prompt"], "expected": {"tasks": tasks, **texts}}
 
     def _placed(self, value: Any) -> Any:
-        place = self.places.get((value[0], value[1])) if _is_place(value) else None
-        return list(place) if place else value
+        if isinstance(value, list) and len(value) == 2:
+            return list(self.places.get((value[0], value[1]), value))
+        return value
 
     def _said(self, text: str) -> str:
         for own, other in self.places.items():
@@ -191,7 +192,7 @@ def view(
         tasks=tuple(_renamed(task, titles, keys) for task in tasks),
     )
     places = {vocabulary.home: home, vocabulary.unresolved: unresolved}
-    return View(renamed, titles, keys, dict(places))
+    return View(renamed, titles, keys, places)
 
 
 def _renamed(task: Task, titles: dict[str, str], keys: dict[str, str]) -> Task:
@@ -223,7 +224,3 @@ def _words(description: str, rng: Random) -> list[str]:
         places = sorted(rng.sample(range(len(own)), min(count, len(own))))
         return [own[place] for place in places]
     return [rng.choice(_ANY) for _ in range(min(count, 2))]
-
-
-def _is_place(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2

@@ -10,19 +10,11 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.numbers import (
-    COMPASS,
-    Value,
-    bearing,
-    count_text,
-    length,
-    pick,
-    position,
-    rotation,
-)
+from planner_ft.data import numbers, values
+from planner_ft.data.numbers import COMPASS, Value, count_text, pick
 from planner_ft.data.templates.grammar import Argument, Call, fail
 from planner_ft.data.templates.grammar import Step as Pattern
-from planner_ft.data.values import TABLE, Draw, draw_bearing, draw_number, draw_point, draw_rotation
+from planner_ft.data.values import TABLE, Draw
 from planner_ft.facts import geometry as g
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary.definition import Vocabulary
@@ -42,52 +34,52 @@ Beside = tuple[list[Entry], list[Entry]]
 Values = Mapping[str, Any]
 
 
-def _clockwise(values: Values, default: bool = False) -> bool:
-    return bool(values["turn"] == "clockwise") if "turn" in values else default
+def _clockwise(given: Values, default: bool = False) -> bool:
+    return bool(given["turn"] == "clockwise") if "turn" in given else default
 
 
-def _grid(values: Values) -> list[g.Point]:
-    axis: g.Axis = "x" if values.get("axis") == "x" else "y"
-    width, along, start = values["width"], values["length"], values.get("start", "south-west")
-    spacing = values.get("spacing")
+def _grid(given: Values) -> list[g.Point]:
+    axis: g.Axis = "x" if given.get("axis") == "x" else "y"
+    width, along, start = given["width"], given["length"], given.get("start", "south-west")
+    spacing = given.get("spacing")
     if spacing is None:
-        spacing = (width if axis == "y" else along) / (values["count"] - 1)
-    return g.lawnmower(values["point"], width, along, spacing, start, axis)
+        spacing = (width if axis == "y" else along) / (given["count"] - 1)
+    return g.lawnmower(given["point"], width, along, spacing, start, axis)
 
 
-def _line(values: Values) -> list[g.Point]:
+def _line(given: Values) -> list[g.Point]:
     """Start and end, or a waypoint behind every spacing, or behind each of `count` legs."""
-    far = values["length"]
-    legs = int(values.get("count") or round(far / values.get("spacing", far)))
+    far = given["length"]
+    legs = int(given.get("count") or round(far / given.get("spacing", far)))
     ways = (far * number / legs for number in range(1, legs + 1))
-    start = g.point(*values["point"])
-    return [start, *(g.offset(start, values["heading"], way) for way in ways)]
+    start = g.point(*given["point"])
+    return [start, *(g.offset(start, given["heading"], way) for way in ways)]
 
 
-def _pass(values: Values) -> list[g.Point]:
+def _pass(given: Values) -> list[g.Point]:
     """Along a side of a structure, from the south or the west."""
-    bearing = BEARINGS.get(values.get("side", ""), 45)
+    bearing = BEARINGS.get(given.get("side", ""), 45)
     if bearing % 90:
         raise ValueError("a pass needs one of the four sides")
-    middle = g.offset(values["point"], bearing, values["distance"])
-    start = g.offset(middle, (bearing + 90) % 180 + 180, values["length"] / 2)
-    return g.straight_line(start, (bearing + 90) % 180, values["length"])
+    middle = g.offset(given["point"], bearing, given["distance"])
+    start = g.offset(middle, (bearing + 90) % 180 + 180, given["length"] / 2)
+    return g.straight_line(start, (bearing + 90) % 180, given["length"])
 
 
-def _square(values: Values) -> list[g.Point]:
-    start, clockwise = values.get("start", "east"), _clockwise(values)
-    return g.survey_square(values["point"], values["radius"], start, clockwise=clockwise)
+def _square(given: Values) -> list[g.Point]:
+    start, clockwise = given.get("start", "east"), _clockwise(given)
+    return g.survey_square(given["point"], given["radius"], start, clockwise=clockwise)
 
 
-def _ring(values: Values) -> list[g.Point]:
-    start, clockwise = BEARINGS[values.get("start", "east")], _clockwise(values)
-    around = (values["point"], values["radius"], int(values["count"]))
+def _ring(given: Values) -> list[g.Point]:
+    start, clockwise = BEARINGS[given.get("start", "east")], _clockwise(given)
+    around = (given["point"], given["radius"], int(given["count"]))
     return g.circle(*around, start, clockwise=clockwise)
 
 
-def _sectors(values: Values) -> list[float]:
-    clockwise = _clockwise(values, default=True)
-    return g.sector_headings(int(values["count"]), values.get("heading", 0), clockwise=clockwise)
+def _sectors(given: Values) -> list[float]:
+    clockwise = _clockwise(given, default=True)
+    return g.sector_headings(int(given["count"]), given.get("heading", 0), clockwise=clockwise)
 
 
 EXPAND: Mapping[str, Callable[[Values], Sequence[Any]]] = {
@@ -141,17 +133,17 @@ def direction(rng: Random) -> Value:
 
 
 DRAWS: Mapping[tuple[str, str], Draw] = {
-    ("Line", "heading"): lambda rng: bearing(draw_bearing(rng), rng),
-    ("Sectors", "heading"): lambda rng: bearing(pick((0, 0, 45, 90, 180, 270), rng), rng),
+    ("Line", "heading"): lambda rng: numbers.bearing(values.draw_bearing(rng), rng),
+    ("Sectors", "heading"): lambda rng: numbers.bearing(pick((0, 0, 45, 90, 180, 270), rng), rng),
     ("Grid", "compass"): lambda rng: pick(
         (Value("y", "north-south"), Value("x", "east-west")), rng
     ),
-    ("any", "point"): lambda rng: position(draw_point(rng), rng),
-    ("any", "radius"): lambda rng: length(draw_number(rng, 4, 60), rng),
-    ("any", "length"): lambda rng: length(draw_number(rng, 5, 150), rng),
+    ("any", "point"): lambda rng: numbers.position(values.draw_point(rng), rng),
+    ("any", "radius"): lambda rng: numbers.length(values.draw_number(rng, 4, 60), rng),
+    ("any", "length"): lambda rng: numbers.length(values.draw_number(rng, 5, 150), rng),
     ("any", "direction"): direction,
     ("any", "heading"): direction,
-    ("any", "delta_yaw"): lambda rng: rotation(draw_rotation(rng, 90), rng),
+    ("any", "delta_yaw"): lambda rng: numbers.rotation(values.draw_rotation(rng, 90), rng),
     **{
         (shape, slot): one_of(options)
         for shape, slots in TABLE["draws"].items()

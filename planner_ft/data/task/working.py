@@ -19,10 +19,12 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from planner_ft.data.numbers import digits
+from planner_ft.facts.geometry import tidy
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import canonical_value, is_number, is_position
+from planner_ft.vocabulary.plans import is_number, is_position
 
 NEAR = 0.0051
 """Coordinates are rounded to two decimals."""
@@ -61,7 +63,7 @@ def working_of(record: Mapping[str, Any], vocabulary: Vocabulary) -> str:
     spoken.sort(key=lambda one: any(place.start <= one.start < place.end for place in said))
     lengths = [value for parameter, value in known if parameter.unit == "m" and is_number(value)]
     lengths += [quantity.value for quantity in spoken]
-    distinct = [*dict.fromkeys(_tidy(abs(length)) for length in lengths)]
+    distinct = [*dict.fromkeys(tidy(abs(length)) for length in lengths)]
     axes = [
         _Axis(name, [*dict.fromkeys(place[at] for place in places)], distinct)
         for at, name in enumerate("xy")
@@ -93,10 +95,10 @@ class _Axis:
         if value not in self.known and (found := self._found(value)):
             base, away, whole = found
             if whole is not None and away not in parts:
-                yield f"{_text(whole)}/{_text(round(whole / away))}={_text(away)}"
+                yield f"{digits(whole)}/{digits(round(whole / away))}={digits(away)}"
                 parts.add(away)
             sign = "+" if value > base else "-"
-            yield f"{self.name}{_text(base)}{sign}{_text(away)}={_text(value)}"
+            yield f"{self.name}{digits(base)}{sign}{digits(away)}={digits(value)}"
             self.pace = away
         self.known.add(value)
         self.last = value
@@ -115,7 +117,7 @@ class _Axis:
 
     def _sums(self) -> Iterator[tuple[float, list[_Away]]]:
         wholes: list[_Away] = [(length, None) for length in self.lengths]
-        halves: list[_Away] = [(_tidy(length / 2), length) for length in self.lengths]
+        halves: list[_Away] = [(tidy(length / 2), length) for length in self.lengths]
         # The first lane begins half an area away from its middle.
         away = [*halves, *wholes] if self.lanes and self.pace is None else [*wholes, *halves]
         if self.last is not None:
@@ -124,7 +126,7 @@ class _Axis:
         if self.last is not None:
             # Where the number of the lanes is said, they lie a part of the area apart.
             every = itertools.product(PARTS, self.lengths if self.lanes else ())
-            yield self.last, [*((_tidy(whole / count), whole) for count, whole in every), *halves]
+            yield self.last, [*((tidy(whole / count), whole) for count, whole in every), *halves]
         yield from ((other, away) for other in self.stated[1:])
 
 
@@ -151,11 +153,3 @@ def _on_lanes(route: Sequence[_Point]) -> list[bool]:
 
 def _near(one: float, other: float) -> bool:
     return abs(one - other) <= NEAR
-
-
-def _tidy(value: float) -> float:
-    return round(value, 2)
-
-
-def _text(value: float) -> str:
-    return str(canonical_value(_tidy(float(value))))

@@ -185,7 +185,7 @@ def choose(
 
 
 class Chosen:
-    """A wording of a text: its parts, the labels and the slots in it; `small`: without capitals."""
+    """A wording of a text: its parts, the labels and the slots in it."""
 
     def __init__(self, nodes: Nodes, rng: Random, given: frozenset[str] = frozenset()) -> None:
         self.parts = choose(nodes, rng, [], given)
@@ -193,7 +193,6 @@ class Chosen:
         self.slots = [slot for slot in slots if slot.sign != "?"]
         self.labels = {slot.key for slot in slots if slot.sign == "?"}
         self.said = {slot.key for slot in slots if not slot.sign}
-        self.small = is_small(nodes)
 
 
 def is_small(nodes: Sequence[Node]) -> bool:
