@@ -16,7 +16,7 @@ import argparse
 import itertools
 from pathlib import Path
 
-from planner_ft.data.task.mission_tasks import mission_tasks
+from planner_ft.data.task.sampler import mission_tasks
 from planner_ft.support.files import write_jsonl
 from planner_ft.vocabulary import load_vocabulary
 

@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner_ft.data.missions import missions_with_skills, sample_missions
-from planner_ft.data.task.mission_tasks import mission_tasks
-from planner_ft.data.task.sampler import sample_tasks
+from planner_ft.data.task.sampler import mission_tasks, sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.pretraining.packs import Pack, arrays, draw_packs, packs_in

@@ -10,7 +10,7 @@ import pytest
 from planner_ft.data.clauses import Clause
 from planner_ft.data.missions import MissionSampler, mission_sampler, missions_with_skills
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.mission_tasks import mission_tasks
+from planner_ft.data.task.sampler import mission_tasks
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
 from planner_ft.support.errors import PlannerError

@@ -1,4 +1,4 @@
-"""The task-level data set, sampled from a vocabulary.
+"""The task-level data set, sampled from a vocabulary, and tasks as the Mission Agent hands them on.
 
     for record in sample_tasks(load_vocabulary(), seed=0, count=500, split="test"): ...
 
@@ -7,38 +7,53 @@ a task, each in a clause of the phrase file, and the label is exactly what the c
 others come from whole-prompt templates (prompts/), which belong to one of the splits each. The
 skeleton of a prompt, its text without the values, decides which of train, validation and test may
 hold it.
+
+The sampler's prompts say what to do skill by skill; a task prompt of a synthetic mission says what
+is wanted ("Circle the met mast at [120, -35] at a stand-off of 25 m."), and `skills` in
+NAME.missions.toml says what that comes to. Unresolved places and the vehicle's defaults are filled
+in first, as they are before the Task Agent runs. A task whose geometry its parameters leave open (a
+grid without a size) is left out: no number is made up.
 """
 
 from __future__ import annotations
 
+import functools
 import itertools
-import random
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from random import Random
 from typing import Any, Literal, get_args
 
+from planner_ft.data.clauses import Beside
+from planner_ft.data.missions import missions_with_skills
 from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
-from planner_ft.data.task.binding import binding, titles
+from planner_ft.data.task.binding import Bound, bind, binding, titles
 from planner_ft.data.task.compose import WORDS, composed
 from planner_ft.data.task.draw import Context, draw_template
 from planner_ft.data.task.phrasebook import phrasebook
-from planner_ft.data.templates.records import templates
+from planner_ft.data.task.steps import Plan, entry_of
+from planner_ft.data.templates.grammar import TemplateError, parse_plan
+from planner_ft.data.templates.records import Template, templates
 from planner_ft.data.templates.render import plain, skeleton
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.definition import Vocabulary
-from planner_ft.vocabulary.plans import canonical_parameters, plan_problems, step_skills
+from planner_ft.vocabulary.definition import MISSIONS, Vocabulary
+from planner_ft.vocabulary.essentials import essentials_of
+from planner_ft.vocabulary.plans import canonical_parameters, named_entries, plan_problems
 
 Split = Literal["train", "validation", "test", "test_unseen"]
 SPLITS: tuple[Split, ...] = get_args(Split)
 
 LONGEST = 24
-"""Steps; longer answers are drawn anew."""
+"""Steps; longer answers are left out."""
+TRANSITS = 0.3
+"""Share of the bare Transits that are kept: every third task is one, and all are alike."""
+AT = "at"
+"""A label and a slot: the place of the task before."""
 TEMPLATES = 0.5
 """Share of the samples that come from a whole-prompt template."""
 HELD_OUT = 12
 """Percent of the skeletons that belong to validation, and as many to test."""
-Draw = Callable[[], dict[str, Any] | None]
 
 
 def sample_tasks(
@@ -53,15 +68,14 @@ def sample_tasks(
     """
     if split not in SPLITS:
         raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
-    rng = random.Random(f"{vocabulary.name}:{seed}:{split}")
+    rng = Random(f"{vocabulary.name}:{seed}:{split}")
     draws = _Draws(vocabulary, rng, split, subjects)
     seen: set[int] = set()
     misses = 0
     for number in itertools.count() if count is None else range(count):
-        draw = draws.any()
+        whole = draws.is_whole()
         while True:
-            drawn = draw()
-            if drawn:
+            if drawn := draws.record(whole=whole):
                 key = hash((drawn["task"], repr(drawn["parameters"]), drawn["prompt"]))
                 if key not in seen:
                     break
@@ -85,7 +99,7 @@ class _Draws:
     """Single draws for one split; None when one came to nothing or belongs to another split."""
 
     def __init__(
-        self, vocabulary: Vocabulary, rng: random.Random, split: Split, subjects: Sequence[str]
+        self, vocabulary: Vocabulary, rng: Random, split: Split, subjects: Sequence[str]
     ) -> None:
         self.unseen = split == "test_unseen"
         self.book, self.rng, self.split = phrasebook(vocabulary, unseen=self.unseen), rng, split
@@ -101,64 +115,49 @@ class _Draws:
             )
         self.share = 1.0 if subjects else TEMPLATES
 
-    def any(self) -> Draw:
-        """Where the next sample comes from."""
-        whole = self.templates and self.rng.random() < self.share
-        return self.from_template if whole else self.composed
+    def is_whole(self) -> bool:
+        """Whether the next sample comes from a whole-prompt template."""
+        return bool(self.templates) and self.rng.random() < self.share
 
-    def from_template(self) -> dict[str, Any] | None:
-        """One record without id from a whole-prompt template."""
-        template = pick(pick(self.templates, self.rng), self.rng)
-        title = pick(titles(template, self.book.vocabulary), self.rng)
-        if (bound := binding(template, title, self.book)) is None:
+    def record(self, *, whole: bool) -> dict[str, Any] | None:
+        """One record without id, from a whole-prompt template or put together. Raises PlannerError
+        when the plan is not strictly valid.
+        """
+        book, rng, bound = self.book, self.rng, None
+        vocabulary = book.vocabulary
+        if whole:
+            template = pick(pick(self.templates, rng), rng)
+            title = pick(titles(template, vocabulary), rng)
+            if (bound := binding(template, title, book)) is None:
+                return None
+            context = Context(book, vocabulary.task[title], rng)
+        else:
+            context = Context(book, pick(vocabulary.tasks, rng), rng)
+            family, bound = composed(context) or ("", None)
+        if bound is None or (drawn := draw_template(bound, context)) is None:
             return None
-        context = Context(self.book, self.book.vocabulary.task[title], self.rng)
-        if (drawn := draw_template(bound, context)) is None:
-            return None
-        family = f"template/{len(drawn[1]['skill_sequence'])}"
-        return self._record(family, context, *drawn, ("train", self.split))
-
-    def composed(self) -> dict[str, Any] | None:
-        """One record without id that was put together."""
-        context = Context(self.book, pick(self.book.vocabulary.tasks, self.rng), self.rng)
-        if (found := composed(context)) is None or not (drawn := draw_template(found[1], context)):
-            return None
-        family = f"unseen-{found[0]}" if self.unseen else found[0]
-        text, plan, skills = drawn
-        return self._record(family, context, opened(text, context), plan, skills, (self.split,))
-
-    def _record(
-        self,
-        family: str,
-        context: Context,
-        said: str,
-        expected: dict[str, Any],
-        skills: set[str],
-        splits: Sequence[str],
-    ) -> dict[str, Any] | None:
-        """The sample without its id. Raises PlannerError when the plan is not strictly valid."""
-        vocabulary, title = self.book.vocabulary, context.task.title
+        (said, expected, skills), title = drawn, context.task.title
+        if whole:
+            family, splits = f"template/{len(expected['skill_sequence'])}", ("train", self.split)
+        else:
+            said, splits = opened(said, context), (self.split,)
         if len(expected["skill_sequence"]) > LONGEST:
             return None
         said = aside(said, skills, context)
         if not self.unseen and split_of(f"{title} {skeleton(said)}") not in splits:
             return None
-        problems = plan_problems("task", expected, vocabulary, strict=True)
-        if problems:
+        if problems := plan_problems("task", expected, vocabulary, strict=True):
             raise PlannerError(
                 f"vocabulary {vocabulary.name}: a sample of {title} is not valid"
                 f" ({problems[0]}); correct the phrase file's ranges"
             )
         if not self.unseen:
-            calls = (
-                call for step in expected["skill_sequence"] for _role, call in step_skills(step)
-            )
-            values = (value for call in calls for value in call["parameters"].values())
+            values = (one for _name, of in named_entries("task", expected) for one in of.values())
             # The plan has words of the prompt with their capitals.
             texts = any(isinstance(one[0] if isinstance(one, list) else one, str) for one in values)
-            said = noisy(said, self.rng, shout=not texts)
+            said = noisy(said, rng, shout=not texts)
         return {
-            "family": family,
+            "family": f"unseen-{family}" if self.unseen else family,
             "task": title,
             "parameters": canonical_parameters(context.parameters(), context.task),
             "prompt": plain(said),
@@ -204,3 +203,100 @@ def aside(text: str, skills: set[str], c: Context) -> str:
                 f"{text} {pick(known['negation'], rng).format(c.say(pick(pick(bare, rng), rng)))}"
             )
     return text
+
+
+# ---------------------------------------------------------------- tasks of missions
+
+
+def mission_tasks(vocabulary: Vocabulary, seed: int) -> Iterator[dict[str, Any]]:
+    """Endless task records from synthetic missions; the same seed gives the same records.
+
+    Raises PlannerError for a vocabulary of which no task says what it comes to.
+    """
+    if not any(_meanings(vocabulary, title) for title in vocabulary.task):
+        raise PlannerError(
+            f"vocabulary {vocabulary.name}: no task in {vocabulary.name}{MISSIONS} says with"
+            " skills = [...] what it comes to"
+        )
+    locate, transit = vocabulary.task[vocabulary.locate], vocabulary.transit
+    described = next(item.name for item in locate.parameters if item.type == "text")
+    for mission, beside in missions_with_skills(seed, None, vocabulary):
+        rng = Random(f"{seed}:{mission['id']}")
+        place: list[float] = [rng.randrange(-200, 201, 5), rng.randrange(-200, 201, 5)]
+        subject, at = None, None
+        for number, entry in enumerate(mission["expected"]["tasks"]):
+            title, parameters = entry["title"], entry["parameters"]
+            bare = title == transit and not beside[number]
+            if (not bare or rng.random() <= TRANSITS) and (
+                record := task_record(entry, subject, place, vocabulary, beside[number], at)
+            ):
+                name = f"mission-task-{mission['id']}-{number}"
+                yield {"id": name, "family": f"mission-task/{title}", **record}
+            at = parameters.get(vocabulary.task[title].position_parameter, at)
+            subject = parameters[described] if title == locate.title else subject
+
+
+def task_record(
+    entry: dict[str, Any],
+    subject: str | None,
+    place: list[float],
+    vocabulary: Vocabulary,
+    added: Sequence[Beside] = (),
+    at: Sequence[float] | None = None,
+) -> dict[str, Any] | None:
+    """The record of one task of a plan, its open place filled in; None where the geometry is left
+    open.
+
+    `subject` is the target that was searched last, which a task at a place that has been found is
+    about; `added` are the skills that clauses of the command put beside the task; `at` is where the
+    task before was, the place of a structure pass whose prompt names it.
+    """
+    task = vocabulary.task[entry["title"]]
+    values = {
+        name: list(place) if value == list(vocabulary.unresolved) else value
+        for name, value in entry["parameters"].items()
+    }
+    values = {**essentials_of(task.title, vocabulary).defaults, **values}
+    known = {item.name: subject for item in task.parameters if item.type == "id" and subject}
+    known |= values | ({AT: at} if at and str(list(at)) in entry["task_prompt"] else {})
+    filters, perceptions = (
+        [entry_of(name, given, vocabulary) for kind, name, given in added if kind == role]
+        for role in ("filter", "perception")
+    )
+    meanings = _meanings(vocabulary, task.title)
+    bound = next((bound for bound, labels in meanings if labels <= known.keys()), None)
+    if bound is None:
+        return None
+    book, added_ = phrasebook(vocabulary, unseen=False), (filters, perceptions)
+    plan = Plan(bound, book, known.keys(), lambda one: known.get(str(one.value)), added_)
+    try:
+        expected = {"skill_sequence": plan.steps()}
+    except ValueError:
+        return None
+    long = len(expected["skill_sequence"]) > LONGEST
+    if long or plan_problems("task", expected, vocabulary, strict=True):
+        return None
+    return {
+        "task": task.title,
+        "parameters": canonical_parameters(values, task),
+        "prompt": entry["task_prompt"],
+        "expected": expected,
+    }
+
+
+@functools.cache
+def _meanings(vocabulary: Vocabulary, title: str) -> list[tuple[Bound, set[str]]]:
+    """What a task comes to, with the parameters that this needs: the first that fits counts."""
+    found = []
+    for plan in vocabulary.beside(MISSIONS).get("task", {}).get(title, {}).get("skills", ()):
+        where = f"{vocabulary.name}{MISSIONS}: [task.{title}] skills"
+        calls = (call for step in parse_plan(plan) for call in step.calls())
+        labels = {call.label for call in calls if call.label}
+        text = "".join(f"{{?{label}}}" for label in labels) + (f"{{{AT}}}" if AT in labels else "")
+        template = Template("", "train", text, plan, where)
+        try:
+            bound = bind(template, vocabulary.task[title], phrasebook(vocabulary, unseen=False))
+        except TemplateError as error:
+            raise template.error(error) from None
+        found.append((bound, labels))
+    return found

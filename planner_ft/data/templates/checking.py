@@ -1,7 +1,13 @@
-"""Checking the templates of a vehicle: every one is drawn some times, its plans must be valid."""
+"""Checking the templates of a vehicle: every one is drawn some times, its plans must be valid.
+
+    python -m planner_ft.data.templates [NAME] [--show N]
+
+prints what is wrong as FILE:LINE, and N samples of every template whose id begins with --only.
+"""
 
 from __future__ import annotations
 
+import argparse
 import itertools
 from collections.abc import Iterator
 from random import Random
@@ -15,7 +21,9 @@ from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.support.files import compact_json
+from planner_ft.support.terminal import show
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, plan_problems
 
 DRAWS = 4
@@ -72,3 +80,27 @@ def _prompts(prompt: Template, book: Phrasebook) -> Iterator[tuple[str, Any]]:
             context = Context(book, book.vocabulary.task[title], Random(seed))
             if drawn := draw_template(bound, context):
                 yield plain(drawn[0]), drawn[1]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Exit status 1 where a template is wrong, 2 where a file cannot be read."""
+    parser = argparse.ArgumentParser(description="Check the templates of a vehicle.")
+    parser.add_argument("vocabulary", nargs="?", default="usv")
+    parser.add_argument("--show", type=int, default=0, metavar="N", help="print N samples of each")
+    parser.add_argument("--only", default="", metavar="ID", help="templates whose id begins so")
+    options = parser.parse_args(arguments)
+    wrong = total = 0
+    try:
+        vocabulary = load_vocabulary(options.vocabulary)
+        for template, drawn, error in checked_templates(vocabulary, options.only, options.show):
+            total += 1
+            wrong += error is not None
+            if error:
+                show(str(error))
+            for text, plan in drawn[: 0 if error else options.show]:
+                show(f"{template.id}: {text}\n    {compact_json(plan)}")
+    except PlannerError as error:
+        show(str(error), error=True)
+        return 2
+    show(f"{total} templates, {wrong} wrong")
+    return 1 if wrong else 0

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from planner_ft.data.task.mission_tasks import mission_tasks, task_record
+from planner_ft.data.task.sampler import mission_tasks, task_record
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
