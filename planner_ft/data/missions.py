@@ -19,11 +19,10 @@ from planner_ft.data.clauses import Beside
 from planner_ft.data.composing import Command, Composer
 from planner_ft.data.formulas import HOME
 from planner_ft.data.mission_plan import PlanTexts
-from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import Value, feet, knots, pick
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template, templates
-from planner_ft.data.templates.render import plain
+from planner_ft.data.templates.render import noisy, plain
 from planner_ft.data.values import Draw, WordLists, value_space
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
@@ -75,11 +74,7 @@ class MissionSampler:
     """Draws commands and their plans for one vehicle, from templates of one split."""
 
     def __init__(
-        self,
-        vocabulary: Vocabulary,
-        split: str | None = "train",
-        clause_split: str | None = None,
-        subjects: Sequence[str] = (),
+        self, vocabulary: Vocabulary, split: str | None = "train", subjects: Sequence[str] = ()
     ) -> None:
         self.vocabulary = vocabulary
         self.config = vocabulary.beside(MISSIONS)
@@ -92,7 +87,7 @@ class MissionSampler:
             for group in templates(vocabulary, "commands", split)
             if not subjects or group[0].subject in subjects
         ]
-        clauses = list(itertools.chain(*templates(vocabulary, "clauses", clause_split or split)))
+        clauses = list(itertools.chain(*templates(vocabulary, "clauses", split)))
         kinds = load_limits(vocabulary)
         limits = [line for line in clauses if not line.steps or line.steps[0].call.name in kinds]
         self.clauses = ([line for line in clauses if line not in limits], limits)

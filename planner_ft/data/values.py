@@ -39,14 +39,9 @@ SPAN = 220
 """Metres from home within which most positions lie."""
 
 
-def pseudo_word(rng: Random) -> str:
-    """A word that no dictionary has but anybody could say: "skarb"."""
-    return OWN.entry("word", rng)
-
-
 def made_up_name(rng: Random) -> str:
     """A pronounceable name that means nothing: "Skarberg", "Tolvik"."""
-    return f"{pseudo_word(rng)}{pick(TABLE['endings'], rng)}".capitalize()
+    return f"{OWN.entry('word', rng)}{pick(TABLE['endings'], rng)}".capitalize()
 
 
 @functools.cache

@@ -19,7 +19,7 @@ from random import Random
 from typing import Any
 
 from planner_ft.data.numbers import in_words
-from planner_ft.data.values import any_things, made_up_name, pseudo_word
+from planner_ft.data.values import OWN, any_things, made_up_name
 from planner_ft.facts.geometry import tidy
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.together import Number
@@ -208,7 +208,11 @@ def _noun(rng: Random) -> str:
     if roll < 0.65:
         begun = rng.choice(_LISTS["prefixes"]) + rng.choice(things)
         return begun + (rng.choice(_LISTS["suffixes"]) if rng.random() < 0.4 else "")
-    word = pseudo_word(rng) if roll < 0.85 else rng.choice(things) + rng.choice(_LISTS["suffixes"])
+    word = (
+        OWN.entry("word", rng)
+        if roll < 0.85
+        else rng.choice(things) + rng.choice(_LISTS["suffixes"])
+    )
     return _accented(word, rng, 0.25)
 
 

@@ -238,7 +238,8 @@ def test_tasks_of_missions_carry_the_skills_of_their_clauses():
 
 
 def test_validation_clauses_make_commands_of_their_own():
-    sampler = MissionSampler(USV, clause_split="validation")
+    sampler = MissionSampler(USV)
+    sampler.clauses = MissionSampler(USV, "validation").clauses
     lines = list(itertools.chain(*sampler.clauses))
     assert lines and {line.split for line in lines} == {"validation"}
     assert Clause(sampler, lines[0], random.Random(0)).template is lines[0]

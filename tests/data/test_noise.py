@@ -2,7 +2,7 @@
 
 import random
 
-from planner_ft.data import noise
+from planner_ft.data.templates import render as noise
 from planner_ft.data.templates.render import VALUE_CLOSE, VALUE_OPEN, plain
 
 

@@ -26,7 +26,6 @@ from typing import Any, Literal, get_args
 
 from planner_ft.data.clauses import Beside
 from planner_ft.data.missions import missions_with_skills
-from planner_ft.data.noise import noisy
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.binding import Bound, bind, binding, titles
 from planner_ft.data.task.compose import WORDS, composed
@@ -35,7 +34,7 @@ from planner_ft.data.task.phrasebook import phrasebook
 from planner_ft.data.task.steps import Plan, entry_of
 from planner_ft.data.templates.grammar import TemplateError, parse_plan
 from planner_ft.data.templates.records import Template, templates
-from planner_ft.data.templates.render import plain, skeleton
+from planner_ft.data.templates.render import noisy, plain, skeleton
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import MISSIONS, Vocabulary
 from planner_ft.vocabulary.essentials import essentials_of
@@ -89,12 +88,6 @@ def sample_tasks(
         yield {"id": f"task-{split}-{number:06d}", **drawn}
 
 
-def split_of(text: str) -> Split:
-    """The split to which a skeleton, or a template, of a training family belongs."""
-    bucket = zlib.crc32(text.lower().encode()) % 100
-    return "test" if bucket < HELD_OUT else "validation" if bucket < 2 * HELD_OUT else "train"
-
-
 class _Draws:
     """Single draws for one split; None when one came to nothing or belongs to another split."""
 
@@ -144,7 +137,9 @@ class _Draws:
         if len(expected["skill_sequence"]) > LONGEST:
             return None
         said = aside(said, skills, context)
-        if not self.unseen and split_of(f"{title} {skeleton(said)}") not in splits:
+        bucket = zlib.crc32(f"{title} {skeleton(said)}".lower().encode()) % 100
+        held_out = "test" if bucket < HELD_OUT else "validation"
+        if not self.unseen and (held_out if bucket < 2 * HELD_OUT else "train") not in splits:
             return None
         if problems := plan_problems("task", expected, vocabulary, strict=True):
             raise PlannerError(
