@@ -23,22 +23,13 @@ from planner_ft.vocabulary.plans import MISSION_KEYS, plan_names, step_skills, v
 
 Records = Sequence[Mapping[str, Any]]
 
-_TABLE = tomllib.loads(Path(__file__).with_name("tags.toml").read_text("utf-8"))
-
-
-def _column(key: str) -> dict[str, Any]:
-    return {tag: entry[key] for tag, entry in _TABLE.items() if key in entry}
-
-
-TAGS: dict[str, str] = _column("rule")
-"""Tag to what a command with it exercises."""
-TASKS_OF_TAG: dict[str, list[str]] = _column("tasks")
-"""A record with the tag has one of these tasks."""
-ROLE_OF_TAG: dict[str, str] = _column("role")
-"""A record with the tag has the task that the vehicle's definition names for this role."""
-ALWAYS_TAGGED: dict[str, str] = {task: tag for tag, task in _column("always").items()}
-"""A record with the task has this tag."""
-WORDS = {tag: re.compile(rf"\b(?:{words})\b", re.I) for tag, words in _column("words").items()}
+TAGS: dict[str, dict[str, Any]] = tomllib.loads(
+    Path(__file__).with_name("tags.toml").read_text("utf-8")
+)
+"""By tag what a command with it exercises, and which tasks its record has (tags.toml)."""
+WORDS = {
+    tag: re.compile(rf"\b(?:{of['words']})\b", re.I) for tag, of in TAGS.items() if "words" in of
+}
 """A command with such words may be one with the tag, where records have none."""
 TOLD = "rule.told"
 UNUSED = frozenset({"rule.correction", "rule.exclusion", "rule.search-on-request", TOLD})
@@ -51,7 +42,7 @@ COVERAGE = {"train": (125, 8), "validation": (25, 1), "test": (25, 1)}
 def tags_of(vocabulary: Vocabulary) -> list[str]:
     """The tags that a vehicle's commands can have: those of no task, and of a task that it has."""
     known = vocabulary.task.keys()
-    return [tag for tag in TAGS if not known.isdisjoint(TASKS_OF_TAG.get(tag, known))]
+    return [tag for tag, of in TAGS.items() if not known.isdisjoint(of.get("tasks", known))]
 
 
 def unchecked_tags(records: Records, vocabulary: Vocabulary) -> list[str]:
@@ -65,18 +56,18 @@ def tag_problems(record: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[
     tags = record.get("tags", [])
     titles = set(plan_names("mission", record.get("expected")))
     for tag in tags:
-        role = ROLE_OF_TAG.get(tag)
-        needed = [title for title in TASKS_OF_TAG.get(tag, ()) if title in vocabulary.task]
-        needed += [getattr(vocabulary, role)] if role else []
-        if tag not in TAGS:
+        of = TAGS.get(tag, {})
+        needed = [title for title in of.get("tasks", ()) if title in vocabulary.task]
+        needed += [getattr(vocabulary, of["role"])] if "role" in of else []
+        if not of:
             yield f"tag {tag!r} is not known"
         elif needed and titles.isdisjoint(needed):
             yield f"tag {tag} needs {' or '.join(needed)} in the plan"
     if len(set(tags)) != len(tags):
         yield "a tag stands twice"
-    for title, tag in ALWAYS_TAGGED.items():
-        if title in titles and tag not in tags:
-            yield f"{title} is in the plan, but the tag {tag} is not"
+    for tag, of in TAGS.items():
+        if of.get("always") in titles and tag not in tags:
+            yield f"{of['always']} is in the plan, but the tag {tag} is not"
     if ("rule.empty" in tags) != (not titles):
         yield "the tag rule.empty and an empty task list go together"
 

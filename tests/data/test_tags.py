@@ -11,9 +11,7 @@ import pytest
 
 from planner_ft.data.curated import curated_folder
 from planner_ft.data.labels import (
-    ALWAYS_TAGGED,
     TAGS,
-    TASKS_OF_TAG,
     WORDS,
     coverage_problems,
     tag_problems,
@@ -77,9 +75,9 @@ def test_a_vehicle_has_the_tags_of_its_tasks() -> None:
 
 
 def test_tables_name_known_tags_and_tasks() -> None:
-    assert set(TASKS_OF_TAG) | set(ALWAYS_TAGGED.values()) <= set(TAGS)
-    titles = {title for titles in TASKS_OF_TAG.values() for title in titles}
-    assert titles | set(ALWAYS_TAGGED) <= {*USV.task, *DRONE.task}
+    titles = {title for of in TAGS.values() for title in of.get("tasks", ())}
+    titles |= {of["always"] for of in TAGS.values() if "always" in of}
+    assert titles <= {*USV.task, *DRONE.task}
     assert sum(tag.startswith("which.") for tag in tags_of(USV)) == 11
 
 

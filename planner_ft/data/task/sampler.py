@@ -130,10 +130,11 @@ class _Draws:
         if bound is None or (drawn := draw_template(bound, context)) is None:
             return None
         (said, expected, skills), title = drawn, context.task.title
+        splits: tuple[str, ...] = (self.split,)
         if whole:
             family, splits = f"template/{len(expected['skill_sequence'])}", ("train", self.split)
         else:
-            said, splits = opened(said, context), (self.split,)
+            said = opened(said, context)
         if len(expected["skill_sequence"]) > LONGEST:
             return None
         said = aside(said, skills, context)
