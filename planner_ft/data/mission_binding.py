@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from planner_ft.data.formulas import HOME, is_formula, operands
 from planner_ft.data.templates import grammar
-from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, all_slots, base_of
+from planner_ft.data.templates.grammar import Call, Nodes, TemplateError, all_slots, base_of
 from planner_ft.data.templates.records import Template
 from planner_ft.data.values import WordLists
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
@@ -98,7 +98,11 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
             owners[key] = LIMIT, LIMIT.by_name[base_of(key)]
     for slot in every:
         if not (slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists):
-            owners[slot.key] = _owner(slot, vocabulary)
+            task = next((task for task in vocabulary.tasks if slot.base in task.by_name), None)
+            if task is None:
+                raise TemplateError(f"{{{slot.key}}} is no target, parameter or word list")
+            # Outside of the plan a value is one of the first parameter of that name.
+            owners[slot.key] = task, task.by_name[slot.base]
     arguments = itertools.chain(*(step.call.arguments for step in template.steps))
     unused = {str(argument.value) for argument in arguments if argument.kind == "unused"}
     used = unused.union(asked, *(line.slots() for line in lines))
@@ -181,11 +185,3 @@ def _fill(task: Task, argument: grammar.Argument, keys: set[str]) -> Fill:
     if not operands(str(value)) <= keys:
         raise TemplateError(f"{value} stands in the plan and not in the text")
     return Fill(task.by_name[name], str(value))
-
-
-def _owner(slot: Slot, vocabulary: Vocabulary) -> tuple[Task, Parameter]:
-    """What a value outside the plan is drawn for: the first parameter of that name."""
-    for task in vocabulary.tasks:
-        if slot.base in task.by_name:
-            return task, task.by_name[slot.base]
-    raise TemplateError(f"{{{slot.key}}} is no target, parameter or word list")

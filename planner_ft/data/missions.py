@@ -82,11 +82,7 @@ class MissionSampler:
         self.texts = PlanTexts(vocabulary, self.config)
         self.default: str = self.config.get("target", "thing")
         self.draws: dict[tuple[str, str], tuple[Draw, tuple[float, float]]] = {}
-        self.groups = [
-            group
-            for group in templates(vocabulary, "commands", split)
-            if not subjects or group[0].subject in subjects
-        ]
+        self.groups = templates(vocabulary, "commands", split, subjects)
         clauses = list(itertools.chain(*templates(vocabulary, "clauses", split)))
         kinds = load_limits(vocabulary)
         limits = [line for line in clauses if not line.steps or line.steps[0].call.name in kinds]

@@ -183,9 +183,7 @@ def dataset_card(
 def _found(level: Level, records: Records) -> dict[str, Counter[Any]]:
     """How often names, tasks of the input, tags and pairs (`_pairs`) occur."""
     return {
-        "names": Counter(
-            name for record in records for name in plan_names(level, record["expected"])
-        ),
+        "names": Counter(itertools.chain(*(plan_names(level, one["expected"]) for one in records))),
         "inputs": Counter(record["task"] for record in records if "task" in record),
         "tags": Counter(tag for record in records for tag in record.get("tags", ())),
         "pairs": Counter(_pairs(level, records)),

@@ -117,8 +117,14 @@ def learning_rate(settings: PretrainSettings, done: float) -> float:
     return max(0.0, min(1.0, done / settings.warmup, (1.0 - done) / settings.decay))
 
 
-def batches(shards: list[Path], settings: PretrainSettings, skip: int) -> Iterator[Grid]:
-    """Endless batches over the shards, in order, each one row; the first `skip` are passed over."""
+def batches(
+    shards: list[Path], settings: PretrainSettings, skip: int, grids: Iterator[Grid] | None = None
+) -> Iterator[Grid]:
+    """Endless batches, of `grids` where these are given, else over the shards, in order, each one
+    row; there the first `skip` are passed over.
+    """
+    if grids is not None:
+        return grid_batches(grids, settings.batch_tokens // settings.width)
     width = max(settings.batch_tokens, settings.longest)
     drawn = (
         grid_of(*load_shard(shard), width, settings.seed + 7919 * epoch + index)
@@ -203,11 +209,7 @@ def pretrain(
     optims = optimizers(model, settings)
     matrices = layer_matrices(model)
     state = _restore(folder, model, optims)
-    if grids is None:
-        drawn = batches(shards, settings, state["step"])
-    else:
-        drawn = grid_batches(grids, settings.batch_tokens // settings.width)
-    body = model.model
+    body, drawn = model.model, batches(shards, settings, state["step"], grids)
     if settings.compile:
         body = torch.compile(body, dynamic=grids is None)
     budget, saved = Budget(settings, state["seconds"]), time.monotonic()

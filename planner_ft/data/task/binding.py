@@ -184,11 +184,8 @@ class _Binder:
         for role, place in shape.roles.items():
             if role not in given and not (role == "spacing" and "count" in given):
                 arguments.append(Argument("param", self._own(call, role, place), role))
-        self.bound.located |= {
-            str(argument.value)
-            for argument in arguments
-            if argument.name == "point" and argument.kind == "param"
-        }
+        points = (one for one in arguments if (one.name, one.kind) == ("point", "param"))
+        self.bound.located |= {str(one.value) for one in points}
         return replace(call, arguments=tuple(arguments))
 
     def _own(self, call: Call, role: str, place: str) -> str:

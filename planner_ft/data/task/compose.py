@@ -261,15 +261,13 @@ class _Filler:
                     self.context.require(name)
             yield lead_clause(book, self.task.title, self.lead, form == "ing")
             self.lead, count = "", count - 1
-        every, fitting = (
-            [
-                name
-                for name in names
-                if (form not in SAID or book.skills[name].phrases[form])
-                and (name not in self.used or book.skills[name].several)
-            ]
-            for names in (book.roles[ROLES[base]], self.task.skills.get(ROLES[base], ()))
-        )
+
+        def fits(name: str) -> bool:
+            new = name not in self.used or book.skills[name].several
+            return new and (form not in SAID or bool(book.skills[name].phrases[form]))
+
+        every = [*filter(fits, book.roles[ROLES[base]])]
+        fitting = [*filter(fits, self.task.skills.get(ROLES[base], ()))]
         drawn = [
             pick(fitting if fitting and rng.random() < 0.85 else every, rng)
             for _ in range(count if every else 0)

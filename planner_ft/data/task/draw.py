@@ -166,11 +166,8 @@ class Drawing(Chosen):
         parameters.
         """
         context, rng = self.context, self.rng
-        arguments = {
-            argument.name: argument
-            for argument in call.arguments
-            if argument.kind != "slot" or argument.value in self.said
-        }
+        said = (one for one in call.arguments if one.kind != "slot" or one.value in self.said)
+        arguments = {one.name: one for one in said}
         links, sizes = context.entry.links, dict[str, float]()
         if call.name == "Grid":
             axis: Any = arguments["axis"].value if "axis" in arguments else "y"

@@ -96,11 +96,7 @@ class _Draws:
     ) -> None:
         self.unseen = split == "test_unseen"
         self.book, self.rng, self.split = phrasebook(vocabulary, unseen=self.unseen), rng, split
-        self.templates = [
-            group
-            for group in ([] if self.unseen else templates(vocabulary, "prompts", split))
-            if not subjects or group[0].subject in subjects
-        ]
+        self.templates = [] if self.unseen else templates(vocabulary, "prompts", split, subjects)
         if subjects and not self.templates:
             raise PlannerError(
                 f"vocabulary {vocabulary.name}: split {split} has no prompt templates of"

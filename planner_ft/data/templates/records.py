@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeVar
@@ -106,14 +106,18 @@ def template_files(vocabulary: Vocabulary, kind: Kind) -> list[Path]:
     return [path for path in (single, *sorted(folder.glob("*.jsonl"))) if path.is_file()]
 
 
-def templates(vocabulary: Vocabulary, kind: Kind, split: str | None = None) -> list[list[Template]]:
-    """The vehicle's templates of a split by group. Raises PlannerError for a faulty record."""
+def templates(
+    vocabulary: Vocabulary, kind: Kind, split: str | None = None, subjects: Sequence[str] = ()
+) -> list[list[Template]]:
+    """The vehicle's templates of a split by group, of these subjects alone where some are named.
+    Raises PlannerError for a faulty record.
+    """
     groups: dict[tuple[str, str], list[Template]] = {}
     for path in template_files(vocabulary, kind):
-        stem = path.stem
         for template in read_templates(path, kind):
-            if split in (None, template.split):
-                groups.setdefault((stem, template.group), []).append(template)
+            wanted = not subjects or template.subject in subjects
+            if wanted and split in (None, template.split):
+                groups.setdefault((path.stem, template.group), []).append(template)
     return list(groups.values())
 
 
