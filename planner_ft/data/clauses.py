@@ -84,7 +84,7 @@ class Clause(Drawing):
         self, sampler: MissionSampler, template: Template, rng: Random, it: Target | None = None
     ) -> None:
         self.it = it
-        super().__init__(sampler, bind_clause(template, sampler), template, rng)
+        super().__init__(sampler, bind_clause(template, sampler), rng)
 
     def _draw(self, slot: Slot) -> None:
         if slot.base != IT:

@@ -30,6 +30,8 @@ BEHIND = (", ", ", ", " ", " - ", " (")
 FIRST, FRONT, BODY, LAST = range(4)
 """Where a clause stands: before the whole, before or in one of the bodies, behind the whole."""
 THEN = ("", "", "Then ", "After that, ", "Next: ", "And then ")
+Clauses = tuple[list[Template], list[Template]]
+"""Records of demands, and those of limits."""
 
 
 @dataclass
@@ -48,16 +50,11 @@ class Composer:
     """Puts one command together."""
 
     def __init__(
-        self,
-        sampler: MissionSampler,
-        templates: Sequence[Template],
-        rng: Random,
-        clauses: tuple[list[Template], list[Template]],
+        self, sampler: MissionSampler, templates: Sequence[Template], rng: Random, clauses: Clauses
     ) -> None:
-        """`clauses` are the records of demands and those of limits."""
         self.sampler, self.rng, self.clauses = sampler, rng, clauses
         given = sampler.vocabulary, sampler.words
-        self.drawings = [Drawing(sampler, bind(one, *given), one, rng) for one in templates]
+        self.drawings = [Drawing(sampler, bind(one, *given), rng) for one in templates]
         self.intents = [
             [_renamed(intent, number) for intent in drawing.intents()]
             for number, drawing in enumerate(self.drawings)

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from planner_ft.data.filling import UNPLACED, Filling, is_name
 from planner_ft.data.formulas import is_formula, operands, worked_out
-from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Bound, Line
+from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Line
 from planner_ft.data.mission_plan import Intent, Target, point_text
 from planner_ft.data.numbers import PLACES, Value, digits, pick, position
 from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, base_of, choose
-from planner_ft.data.templates.records import Template
 from planner_ft.data.templates.render import PIECE, article_for
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Task
-
-if TYPE_CHECKING:
-    from planner_ft.data.missions import MissionSampler
 
 BARE = 0.5
 """Share of the sizes before another size that are said without a unit."""
@@ -27,12 +22,6 @@ JOINTS = (" by ", " x ", "x", " times ")
 
 class Drawing(Filling):
     """One command in the making: what it says, and what is planned for it."""
-
-    def __init__(
-        self, sampler: MissionSampler, bound: Bound, template: Template, rng: Random
-    ) -> None:
-        super().__init__(sampler, bound, template, rng)
-        self.clauses: dict[str, Drawing] = {}
 
     # ------------------------------------------------------------ text
 

@@ -14,7 +14,6 @@ from planner_ft.data.mission_binding import CLAUSE, LIMIT, Bound, Line
 from planner_ft.data.mission_plan import Target, point_text
 from planner_ft.data.numbers import WRITTEN, Value, bearing, knots, pick
 from planner_ft.data.templates.grammar import Chosen, Slot, base_of, fail
-from planner_ft.data.templates.records import Template
 from planner_ft.data.values import draw_number, draw_point
 from planner_ft.facts.geometry import Point, point
 
@@ -41,21 +40,22 @@ UNPLACED = frozenset(("a", "one", "look", "nouns"))
 class Filling(Chosen):
     """What one command speaks of, by slot."""
 
-    def __init__(
-        self, sampler: MissionSampler, bound: Bound, template: Template, rng: Random
-    ) -> None:
-        self.sampler, self.bound, self.template, self.rng = sampler, bound, template, rng
+    def __init__(self, sampler: MissionSampler, bound: Bound, rng: Random) -> None:
+        self.sampler, self.bound, self.template, self.rng = sampler, bound, bound.template, rng
         self.words, self.vocabulary = sampler.words, sampler.vocabulary
         self.targets: dict[str, Target] = {}
         self.values: dict[str, Value] = {}
         self.alike: list[Target] = []
+        self.clauses: dict[str, Any] = {}
         roll = rng.random()
         self.form = None if roll > 0.85 else WRITTEN[0] if roll < 0.3 else pick(WRITTEN, rng)
-        super().__init__(template.nodes, rng)
+        super().__init__(self.template.nodes, rng)
         chosen = {"", *self.labels, *self.said}
         self.lines = [line for line in bound.lines if line.label in chosen]
-        self.corners = {other: (one, ways) for one, other, ways in formulas.opposite(template.plan)}
-        self.winds = formulas.directions(template.plan)
+        self.corners = {
+            other: (one, ways) for one, other, ways in formulas.opposite(self.template.plan)
+        }
+        self.winds = formulas.directions(self.template.plan)
         self.slots.sort(key=_turn)
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:

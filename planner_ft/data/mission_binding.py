@@ -63,6 +63,7 @@ class Bound(NamedTuple):
     the position slot of a target or id that has one (`PerformOrbit T1 P1`), and its own limits.
     """
 
+    template: Template
     lines: list[Line]
     owners: Owners
     kinds: dict[str, str]
@@ -131,7 +132,7 @@ def bound(
             raise TemplateError(f"{{{slot.key}}} is no target, parameter, limit or word list")
     pairs = itertools.chain(*(itertools.product(line.objects, repeat=2) for line in lines))
     places = {key: at for at, key in pairs if base_of(at) == "P" != base_of(key)}
-    return Bound(lines, owners, kinds, places)
+    return Bound(template, lines, owners, kinds, places)
 
 
 def _line(step: grammar.Step, vocabulary: Vocabulary, keys: set[str]) -> Line:
