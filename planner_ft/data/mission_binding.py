@@ -99,11 +99,11 @@ def bind(template: Template, vocabulary: Vocabulary, lists: WordLists) -> Bound:
             owners[key] = LIMIT, LIMIT.by_name[base_of(key)]
     for slot in every:
         if not (slot.base in (*OBJECTS, CLAUSE) or slot.key in owners or slot.base in lists):
-            task = next((task for task in vocabulary.tasks if slot.base in task.by_name), None)
-            if task is None:
-                raise TemplateError(f"{{{slot.key}}} is no target, parameter or word list")
             # Outside of the plan a value is one of the first parameter of that name.
-            owners[slot.key] = task, task.by_name[slot.base]
+            first = next((task for task in vocabulary.tasks if slot.base in task.by_name), None)
+            if first is None:
+                raise TemplateError(f"{{{slot.key}}} is no target, parameter or word list")
+            owners[slot.key] = first, first.by_name[slot.base]
     arguments = itertools.chain(*(step.call.arguments for step in template.steps))
     unused = {str(argument.value) for argument in arguments if argument.kind == "unused"}
     used = unused.union(asked, *(line.slots() for line in lines))

@@ -177,11 +177,10 @@ def encode_shard(
     path: Path,
     tokenizer: PreTrainedTokenizerBase,
     vocabulary: Vocabulary,
-    *,
     seed: int,
     count: int,
-    mixture: Mixture,
     longest: int,
+    mixture: Mixture,
 ) -> dict[str, int]:
     """Write `count` tokenised samples as one .npz file; return counts.
 
@@ -207,7 +206,12 @@ def encode_shard(
             ids.append(drill.ids[: drill.worked].astype(np.uint16))
             prompts.append(drill.prompt)
             drilled += 1
-    packs = _packs(tokenizer, vocabulary, seed, round(count * mixture.packs), mixture, longest)
+    packs = list[Pack]()
+    if number := round(count * mixture.packs):
+        others = vehicles_in(mixture.folder) if mixture.folder else ()
+        weights = [mixture.own, *[(1 - mixture.own) / max(1, len(others))] * len(others)]
+        endless = draw_packs([vocabulary, *others], weights, tokenizer, seed, longest)
+        packs = list(itertools.islice(endless, number))
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:
         at = np.array(prompts, dtype=np.int32)
@@ -217,24 +221,6 @@ def encode_shard(
     tokens += sum(len(part) for pack in packs for part, _prompt in pack)
     counts = {"samples": samples, "tokens": tokens, "left_out": left_out, "drills": drilled}
     return {**counts, "packs": len(packs)}
-
-
-def _packs(
-    tokenizer: PreTrainedTokenizerBase,
-    vocabulary: Vocabulary,
-    seed: int,
-    count: int,
-    mixture: Mixture,
-    longest: int,
-) -> list[Pack]:
-    """Packs of our vehicle and of the others in their shares."""
-    if not count:
-        return []
-    others = vehicles_in(mixture.folder) if mixture.folder else ()
-    share = (1 - mixture.own) / max(1, len(others))
-    weights = [mixture.own, *(share for _ in others)]
-    drawn = draw_packs([vocabulary, *others], weights, tokenizer, seed, longest)
-    return list(itertools.islice(drawn, count))
 
 
 def load_shard(path: Path) -> tuple[list[Sample], list[Pack]]:

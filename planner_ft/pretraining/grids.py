@@ -185,15 +185,8 @@ def make_shard(job: Job) -> dict[str, int]:
 
     path, tokenizer, seed, count, longest, mixture = job
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
-    return encode_shard(
-        path,
-        PreTrainedTokenizerFast.from_pretrained(tokenizer),
-        load_vocabulary(),
-        seed=seed,
-        count=count,
-        mixture=mixture,
-        longest=longest,
-    )
+    own = PreTrainedTokenizerFast.from_pretrained(tokenizer)
+    return encode_shard(path, own, load_vocabulary(), seed, count, longest, mixture)
 
 
 def record(job: Job, counts: dict[str, int], commit: str | None) -> None:
