@@ -30,12 +30,12 @@ Job = tuple[Path, Path, int, int, int, Mixture]
 OPEN = 48
 """Rows that are filled at a time."""
 FIELDS = ("input_ids", "labels", "positions", "units", "parts")
-Cells = NDArray[np.int16]
+Cells = NDArray[np.int32]
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Rows of one width: int16 arrays of shape (rows, width).
+    """Rows of one width: int32 arrays of shape (rows, width).
 
     `labels` are IGNORE outside answers. `units` number the samples and packs of a row, 0 where
     nothing stands; `parts` number the samples of a pack, 0 for the vocabulary that they share.
@@ -109,7 +109,7 @@ def grid_of(samples: Sequence[Sample], packs: Sequence[Pack], width: int, seed: 
         rows[at].append(unit)
         spaces[at] -= size
     done += rows
-    cells = {name: np.zeros((len(done), width), np.int16) for name in FIELDS}
+    cells = {name: np.zeros((len(done), width), np.int32) for name in FIELDS}
     cells["labels"][:] = IGNORE
     for row, at in enumerate(map(int, rng.permutation(len(done)))):
         _fill({name: values[row] for name, values in cells.items()}, done[at])

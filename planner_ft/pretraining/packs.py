@@ -105,10 +105,9 @@ def packed(
 def arrays(packs: Sequence[Pack]) -> dict[str, Any]:
     """Packs as arrays for a shard."""
     parts = [part for pack in packs for part in pack]
+    ids = np.concatenate([np.zeros(0), *(ids for ids, _prompt in parts)])
     return {
-        "pack_ids": np.concatenate([np.zeros(0, np.uint16), *(ids for ids, _ in parts)]).astype(
-            np.uint16
-        ),
+        "pack_ids": ids.astype(np.uint16),
         "pack_parts": np.array([(len(ids), prompt) for ids, prompt in parts], np.int32),
         "pack_sizes": np.array([len(pack) for pack in packs], np.int32),
     }
