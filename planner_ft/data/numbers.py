@@ -139,7 +139,7 @@ def _size(value: float, rng: Random, unit: str = "") -> dict[str, str]:
     fields = {"n": digits(value), "c": count_text(value, rng), "s": _ending(value)}
     if isinstance(value, int) and 0 < value <= 20:
         fields["w"] = in_words(value)
-    return {key + unit: text for key, text in fields.items()}
+    return {key + unit: text for key, text in fields.items()} if unit else fields
 
 
 def _own(value: float, rng: Random, table: str) -> dict[str, str]:

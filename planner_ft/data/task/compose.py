@@ -262,12 +262,13 @@ class _Filler:
             yield lead_clause(book, self.task.title, self.lead, form == "ing")
             self.lead, count = "", count - 1
 
-        def fits(name: str) -> bool:
-            new = name not in self.used or book.skills[name].several
-            return new and (form not in SAID or bool(book.skills[name].phrases[form]))
-
-        every = [*filter(fits, book.roles[ROLES[base]])]
-        fitting = [*filter(fits, self.task.skills.get(ROLES[base], ()))]
+        every = [
+            name
+            for name in book.roles[ROLES[base]]
+            if (form not in SAID or book.skills[name].phrases[form])
+            and (name not in self.used or book.skills[name].several)
+        ]
+        fitting = [name for name in self.task.skills.get(ROLES[base], ()) if name in every]
         drawn = [
             pick(fitting if fitting and rng.random() < 0.85 else every, rng)
             for _ in range(count if every else 0)
