@@ -20,7 +20,7 @@ from planner_ft.data.missions import missions_with_skills, sample_missions
 from planner_ft.data.task.sampler import mission_tasks, sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.data.varying import with_unfamiliar_words
-from planner_ft.pretraining.packs import Pack, arrays, draw_packs, packs_in
+from planner_ft.pretraining.packs import Pack, Part, arrays, draw_packs, packs_in
 from planner_ft.prompts.render import render_sample
 from planner_ft.prompts.text import answer_text, user_text
 from planner_ft.support.errors import PlannerError
@@ -37,8 +37,6 @@ DRILL_SEED = 70_000_000
 EMPHASIS_SEED = 90_000_000
 CUT = 0.6
 """Share of the samples with a working that end behind it: the plan itself has little to teach."""
-Sample = tuple[NDArray[np.int64], int]
-"""Token ids and the length of the prompt among them."""
 
 
 @dataclass(frozen=True)
@@ -223,7 +221,7 @@ def encode_shard(
     return {**counts, "packs": len(packs)}
 
 
-def load_shard(path: Path) -> tuple[list[Sample], list[Pack]]:
+def load_shard(path: Path) -> tuple[list[Part], list[Pack]]:
     """The samples of a shard as (ids, prompt length), and its packs."""
     with np.load(path) as data:
         parts = np.split(data["ids"].astype(np.int64), np.cumsum(data["lengths"])[:-1])

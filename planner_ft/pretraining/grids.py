@@ -19,8 +19,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from planner_ft.pretraining.corpus import Mixture, Sample, encode_shard, load_shard
-from planner_ft.pretraining.packs import IGNORE, Pack
+from planner_ft.pretraining.corpus import Mixture, encode_shard, load_shard
+from planner_ft.pretraining.packs import IGNORE, Pack, Part
 from planner_ft.support.files import atomic_writer, write_json
 from planner_ft.support.manifest import source_commit
 from planner_ft.vocabulary import load_vocabulary
@@ -86,7 +86,7 @@ def parts_of(grid: Grid, rank: int = 0, world: int = 1) -> list[NDArray[np.int64
     return [values.astype(np.int64) for values in (*cells, table)]
 
 
-def grid_of(samples: Sequence[Sample], packs: Sequence[Pack], width: int, seed: int) -> Grid:
+def grid_of(samples: Sequence[Part], packs: Sequence[Pack], width: int, seed: int) -> Grid:
     """All samples and packs in rows of `width`; a pack that does not fit becomes several."""
     rng = np.random.default_rng(seed)
     units: list[Pack] = [[part] for part in samples if len(part[0]) <= width]

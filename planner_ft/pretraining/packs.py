@@ -37,7 +37,7 @@ UNFAMILIAR = 0.35
 """Share of the samples whose targets go by words that the generators do not have."""
 Ids = NDArray[np.int64]
 Part = tuple[Ids, int]
-"""Token ids and the length of the prompt among them; of the vocabulary, all is prompt."""
+"""Token ids and the length of the prompt among them; of a vocabulary, all is prompt."""
 Pack = list[Part]
 """The vocabulary's prompt, then the samples behind it."""
 KEPT, DESCRIBED = 0.2, 0.65
