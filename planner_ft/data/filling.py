@@ -52,10 +52,9 @@ class Filling(Chosen):
         super().__init__(self.template.nodes, rng)
         chosen = {"", *self.labels, *self.said}
         self.lines = [line for line in bound.lines if line.label in chosen]
-        self.corners = {
-            other: (one, ways) for one, other, ways in formulas.opposite(self.template.plan)
-        }
-        self.winds = formulas.directions(self.template.plan)
+        plan = self.template.plan
+        self.corners = {other: (one, ways) for one, other, ways in formulas.opposite(plan)}
+        self.winds = formulas.directions(plan)
         self.slots.sort(key=_turn)
         for slot in self.slots:
             if slot.key not in self.targets and slot.key not in self.values:
