@@ -14,6 +14,7 @@ from planner_ft.data.validation import validate_file
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_jsonl
 from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import STEP_KEYS
 
 ROOT = Path(__file__).parents[2]
 USV = load_vocabulary()
@@ -281,3 +282,136 @@ def test_hostile_lines_are_problems_and_no_tracebacks(tmp_path: Path, line: str)
     path = tmp_path / "data.jsonl"
     path.write_text(f"{line}\n{line}\n")
     assert len(validate_file(path, USV).problems) == 2
+
+
+def goes(*places: tuple[float, float]) -> dict[str, Any]:
+    """A mission plan that goes from place to place."""
+    tasks = [
+        {"title": "Transit", "parameters": {"target_position": [*place]}, "task_prompt": ""}
+        for place in places
+    ]
+    return {"tasks": tasks, "assumptions": [], "constraints": []}
+
+
+def held(**more: Any) -> dict[str, Any]:
+    """A task record without values."""
+    sequence = {"skill_sequence": [{"navigation_skill": {"name": "StationKeep"}}]}
+    given = {"task": "KeepStation", "parameters": {}}
+    return {"id": "a", "prompt": "Hold.", **given, "expected": sequence, **more}
+
+
+def spanned(*spans: Any) -> dict[str, Any]:
+    return record(spans=[{**SPAN, "start": 11, "end": 18}, *spans])
+
+
+AFTER_HOME = "tasks[1] Transit: comes after the return home, which is the last Transit"
+NO_OBJECT, NO_LIST = "an object is expected, not a number", "a list is expected, not a number"
+BEYOND = "spans[1]: {} lies outside the prompt"
+EMPTY = "the tag rule.empty and an empty task list go together"
+STEP: dict[str, Any] = {key: [] for key in STEP_KEYS[1:]}
+
+
+@pytest.mark.parametrize(
+    ("value", "found"),
+    [
+        # The rules of missions hold for plans and predictions too, with the command where it is.
+        (goes((4, 5), (0, 0)), []),
+        (goes((0, 0), (4, 5)), [AFTER_HOME]),
+        (goes((0, 0), (4, 5)) | {"prompt": "To [0, 0] and [4, 5]."}, ["unknown key 'prompt'"]),
+        (goes((0, 0), (4, 5)) | {"prompt": 7}, ["unknown key 'prompt'", AFTER_HOME]),
+        ({"id": "a", "output": goes((0, 0), (4, 5))}, [f"output: {AFTER_HOME}"]),
+        ({"skill_sequence": [STEP | {"navigation_skill": 3}]},
+         [f"skill_sequence[0].navigation_skill: {NO_OBJECT}"]),
+        ({"output": goes()}, ["id is missing"]),
+        ({"id": " ", "output": "Sure!"},
+         ["id is no text", "output: not JSON (Expecting value at column 1)"]),
+        # What a record is made of.
+        (record(prompt=7), ["prompt is no text"]),
+        (record(family=7), ["family is no text"]),
+        (record(spans={}), ["spans is no list"]),
+        (record(tags={}), ["tags is no list"]),
+        (record(tags=["rule.none", 7]), ["tags holds something else than texts"]),
+        (record(tags=["rule.none"]), ["tag 'rule.none' is not known"]),
+        (record(expected=[]), ["expected: holds neither tasks nor skill_sequence"]),
+        (record(expected={"tasks": [3]}), [f"expected: tasks[0]: {NO_OBJECT}", EMPTY]),
+        (record(expected={"tasks": []}, tags=["rule.empty"]), []),
+        (spanned({**SPAN, "start": 0, "text": "Proceed to [4, 5]"} | {"end": 17}), []),
+        (spanned({**SPAN, "start": 17}), [BEYOND.format("17 to 17")]),
+        (spanned({**SPAN, "start": -1}), [BEYOND.format("-1 to 17")]),
+        (spanned({**SPAN, "end": 19}), [BEYOND.format("10 to 19")]),
+        (spanned({**SPAN, "start": True}), [BEYOND.format("True to 17")]),
+        (spanned({**SPAN, "end": "b"}), [BEYOND.format("10 to 'b'")]),
+        (spanned([]), ["spans[1]: an object with element, start, end and text is expected"]),
+        # The input and the steps of a task record; outsiders leave out what is empty.
+        (held(), []),
+        (held(parameters={"duration": "long"}), ["parameters.duration: 'long' is no number"]),
+        (held(task="Loiter"), ["task: 'Loiter' is no task title of the vocabulary"]),
+        ({key: value for key, value in held().items() if key != "task"}, ["task is missing"]),
+        (held(expected={"skill_sequence": 3}), [f"expected: skill_sequence: {NO_LIST}"]),
+        (held(expected={"skill_sequence": [3]}), [f"expected: skill_sequence[0]: {NO_OBJECT}"]),
+        (held(expected={"skill_sequence": [{"filter_skills": [3], "failure_modes": 3}]}), [
+            "expected: skill_sequence[0]: navigation_skill is missing",
+            f"expected: skill_sequence[0].failure_modes: {NO_LIST}",
+            f"expected: skill_sequence[0].filter_skills[0]: {NO_OBJECT}",
+        ]),
+    ],
+)  # fmt: skip
+def test_the_problems_of_an_object_and_no_others(
+    tmp_path: Path, value: Any, found: list[str]
+) -> None:
+    assert problems(tmp_path, value) == [f"data.jsonl:1: {problem}" for problem in found]
+
+
+def test_a_level_that_is_asked_for_is_told_first_and_read_where_nothing_tells_it(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "data.jsonl"
+    write_jsonl(path, [record(), held(id="b"), record(id="c", expected=[]), {"x": 1}])
+    report = validate_file(path, USV, "task")
+    texts = [(problem.line, problem.text) for problem in report.problems]
+    assert texts[0] == (1, "a task plan is expected, this is a mission plan")
+    assert not [text for line, text in texts if line == 2]
+    assert (3, "task is missing") in texts
+    assert report.counts == {"mission record": 1, "task record": 2, "task unknown object": 1}
+
+
+def test_the_same_id_is_told_of_records_and_of_one_system_s_predictions(tmp_path: Path) -> None:
+    said = {"id": "a", "output": goes()}
+    lines = [record(), record(), said | {"candidate": "x"}, said | {"configuration": "x"}]
+    lines += [said | {"candidate": "x"}, goes(), goes()]
+    assert problems(tmp_path, *lines) == [
+        "data.jsonl:2: id 'a' stands in line 1 already",
+        "data.jsonl:5: id 'a' stands in line 3 already",
+    ]
+
+
+@pytest.mark.parametrize("suffix", ["json", "jsonl"])
+@pytest.mark.parametrize("before", ["", "\n\n"])
+def test_a_file_of_one_object_names_the_line_where_it_cannot_be_read(
+    tmp_path: Path, suffix: str, before: str
+) -> None:
+    path, text = tmp_path / f"plan.{suffix}", json.dumps(goes((4, 5)), indent=2)
+    path.write_text(before + text)
+    assert validate_file(path, USV).problems == ()
+    path.write_text(before + text.replace('"task_prompt": ""', '"task_prompt":'))
+    (problem,) = validate_file(path, USV).problems
+    line = text[: text.index('"task_prompt"')].count("\n") + 2 + len(before)
+    assert problem.line == line and problem.text.startswith("not JSON")
+
+
+def test_a_record_may_have_half_a_million_characters(tmp_path: Path) -> None:
+    path = tmp_path / "data.jsonl"
+    for more, count in ((0, 0), (1, 1)):
+        line = json.dumps(held(note=""))
+        path.write_text(line.replace('""', f'"{"x" * (500_000 - len(line) + more)}"'))
+        assert len(validate_file(path, USV).problems) == count
+
+
+def test_canonical_form_is_asked_of_right_records_alone_and_can_be_left(tmp_path: Path) -> None:
+    path = tmp_path / "data.jsonl"
+    turned = dict(reversed(record().items()))
+    write_jsonl(path, [record(), turned | {"id": "b"}, turned | {"id": "c", "tags": 3}])
+    (form, tags) = validate_file(path, USV, complete=True).problems
+    assert form.line == 2 and form.text.startswith("not in canonical form")
+    assert tags.text == "tags is no list"
+    assert validate_file(path, USV, complete=True, canonical=False).problems == (tags,)

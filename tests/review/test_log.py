@@ -20,7 +20,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner_ft.document import PlanDocument
+from planner_ft.review import log as review_log
 from planner_ft.review.approval import approve
+from planner_ft.review.chain import Head
 from planner_ft.review.log import append, check_log, existing_log, head_file, log_beside, read_log
 from planner_ft.support.errors import PlannerError
 
@@ -188,6 +190,27 @@ def test_a_head_one_behind_is_repaired_by_the_next_record(tmp_path: Path, count:
     assert not check_log(log).problems
     assert append(log, {"event": "rejected"}).record["sequence"] == count + 1
     assert [record["sequence"] for record in read_log(log)] == list(range(1, count + 2))
+
+
+def test_a_second_killed_writer_leaves_the_head_no_further_behind(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = tmp_path / "approvals.jsonl"
+    written(log, 1)
+    old = head_file(log).read_bytes()
+    append(log, {"event": "approved"})
+    head_file(log).write_bytes(old)
+    real = review_log._write_head
+
+    def killed(log: Path, head: Head) -> None:
+        if head.sequence == 3:
+            raise KeyboardInterrupt
+        real(log, head)
+
+    monkeypatch.setattr(review_log, "_write_head", killed)
+    with pytest.raises(KeyboardInterrupt):
+        append(log, {"event": "rejected"})
+    assert [record["sequence"] for record in read_log(log)] == [1, 2, 3]
 
 
 @pytest.mark.parametrize("torn", [b'{"event":"appro', b"\xff\xfe", b'{"event":"approved"}'])
