@@ -210,6 +210,14 @@ def test_one_neighbour_is_enough_where_the_other_has_moved() -> None:
     ]
 
 
+@pytest.mark.parametrize("place", [0, 2])
+def test_the_beginning_and_the_end_of_a_plan_are_neighbours(place: int) -> None:
+    ours, theirs = ["Diagnostics", "DriftAudit"], ["DriftAudit", "Diagnostics"]
+    ours.insert(place, "KeepStation")
+    theirs.insert(place, "FeatureStare")
+    assert replaced(aligned("mission", mission(*ours), mission(*theirs))) == {place: place}
+
+
 def test_a_filter_never_stands_for_a_perception_skill() -> None:
     expected, predicted = (
         steps(step("StationKeep", filters=("LockHeading",))),

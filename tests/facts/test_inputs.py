@@ -327,6 +327,7 @@ def test_tolerance_holds_for_the_task_s_own_values_too() -> None:
         ("Depth grid from [20, 20] to [120, 80].", [70, 50], True),
         ("Depth grid from [20, 20] to [120, 80].", [70, 60], False),
         ("Grid of 40 m by 20 m, its south-west corner at [10, 10].", [30, 20], True),
+        ("Grid of 40 m by 20 m, its south-west corner at home.", [20, 10], True),
         ("From [40, 10] 200 m north, then 80 m east.", [40, 210], True),
         ("From [40, 10] 200 m north, then 80 m east.", [120, 210], True),
         ("From [40, 10] 200 m north, then 80 m east.", [40, 190], False),

@@ -78,7 +78,8 @@ SAID = """
     {5 = 5} full good whole solid metres | {20 per cent = 20 %} | {20 percent = 20 %}
     {20 % = 20 %} | {20 = 20} {per hour = 3600 s} | {5 = 5} {per centimetre = 0.01 m}
     {half a right angle = 45 deg} | {a right angle = 90 deg} | {two right angles = 180 deg}
-    right angle | right-angle turn | every {other minute = 120 s} | every {other day = 172800 s}
+    {a right angle = 90 deg} {30 m = 30 m} | right angle | right-angle turn
+    every {other minute = 120 s} | every {other day = 172800 s}
     every other s | every other buoy | {three m = 3 m} {thirty s = 30 s} | {3 m 30 s = 210 s}
     {3 min 30 sec = 210 s} | {3 min 30 s = 210 s} | {5 m = 5 m} {30 = 30 *} buoys | {40 = 40}S
     {40 = 40} S | {40 s = 40 s} | {5 m/s = 5 m/s} | {5 m / s = 5 m/s} | {5 m per second = 5 m/s}

@@ -162,6 +162,13 @@ def test_only_places_near_each_other_make_a_phrase_and_not_more_than_100_are_loo
     nearest = "red x. red y. pier, far, red"
     ((red, pier),) = read(nearest).phrases.spans("red pier")
     assert (red, pier) == ((7, 10), (14, 18))
+    for text, start in (
+        ("red x. old pier, then red", 0),
+        ("red x. pier, red", 13),
+        ("pier, red", 6),
+    ):
+        spans = read(text).phrases.spans("red pier")[0]
+        assert (start, start + 3) in spans and len(spans) == 2
 
 
 def test_of_a_long_text_only_unknown_words_can_be_misspelt() -> None:

@@ -254,7 +254,7 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         ("Hold 9 minutes at 9,9, then home. Actually 10 will do.", [*HELD, to(0, 0)], []),
         ("Hold 9 minutes at 9,9, then home. Actually 600 will do.", [*HELD, to(0, 0)], []),
         (
-            "Hold 9 s at 9,9, then home. Actually 2 will do.",
+            "Hold 8 s at 9,9, then home. Actually 2 will do.",
             [to(9, 9), hold(7200), to(0, 0)],
             ["2"],
         ),
