@@ -26,10 +26,8 @@ from planner_ft.vocabulary.plans import Level, list_key, step_skills
 MAJORITY, NEAREST = "majority plan", "nearest neighbour"
 TRAIN = "train.jsonl"
 TOKEN = re.compile(r"\w+|[^\w\s]")
-CHARACTERS = (3, 4, 5)
-"""Lengths of the pieces of a word, its borders included."""
-ROWS = 256
-"""Queries that are compared at a time."""
+CHARACTERS = (3, 4, 5)  # lengths of the pieces of a word, its borders included
+ROWS = 256  # queries that are compared at a time
 
 Line = dict[str, Any]
 Plan = dict[str, Any]

@@ -14,8 +14,7 @@ from planner_ft.benchmark.metrics.names import Counts, counts_by_name, counts_by
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import Estimate, clustered_rate
 
-SHOWN = 5
-"""Examples of each kind of failure."""
+SHOWN = 5  # examples of each kind of failure
 Breakdown = dict[str, Any]
 Lines = list[dict[str, Any]]
 Scores = Sequence[SampleScore]

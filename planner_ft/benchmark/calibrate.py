@@ -29,8 +29,7 @@ from planner_ft.vocabulary.plans import Level
 EVERY = ("lowest", "total", "margin", "overruled", "tokens")
 FEATURES: dict[Kind, tuple[str, ...]] = {"plan": EVERY, "entry": EVERY, "value": EVERY}
 """What tells right parts from wrong ones, chosen on the development sets (docs/metrics.md)."""
-LEAST = 20
-"""Answers below which nothing is fitted."""
+LEAST = 20  # answers below which nothing is fitted
 FOLDS = 5
 DATA = "data.jsonl"
 

@@ -75,13 +75,10 @@ METRIC = {
 }
 CATALOGUE = tuple(metric for metric in METRIC.values() if not metric.worst)
 """Those that are not of phrasing families with at least two samples."""
-METRICS = tuple(METRIC)
-"""Names of the metrics in results.json and in gate files."""
+METRICS = tuple(METRIC)  # names of the metrics in results.json and in gate files
 MAIN: tuple[str, ...] = tuple(_RAW["first"]["main"])
 RIGHT: tuple[str, ...] = tuple(_RAW["first"]["right"])
-SECTIONS: dict[str, list[str]] = _RAW["sections"]
-"""Names of metrics by the heading of their table."""
+SECTIONS: dict[str, list[str]] = _RAW["sections"]  # names of metrics by the heading of their table
 Columns = Sequence[Sequence[Any]]
 """Columns of figures: heading, place in a record (keys joined by dots), scale, decimals."""
-COLUMNS: dict[str, Columns] = _RAW["columns"]
-"""Columns of tables that are not of metrics, by table."""
+COLUMNS: dict[str, Columns] = _RAW["columns"]  # columns of tables that are not of metrics, by table

@@ -18,10 +18,8 @@ the same weights. best: models in one configuration with the best of them. basel
 each baseline.
 """
 Contrasts = Mapping[Question, Sequence[Comparison]]
-System = tuple[str, str]
-"""Candidate and configuration."""
-Scores = dict[str, list[Score]]
-"""The scores of a system by sample id."""
+System = tuple[str, str]  # candidate and configuration
+Scores = dict[str, list[Score]]  # the scores of a system by sample id
 Wanted = list[tuple[System, System, Metric]]
 
 DECISIVE = ("f1", "whole_plan")
@@ -33,8 +31,7 @@ DEFAULT_METRICS = (
 COMPARED = (*DEFAULT_METRICS, "schema_valid")
 BEST = "★"
 NOT_WORSE = ("equal", "not told apart", "better")
-RIGHT = "right"
-"""The outcome of an answer with right names, order and parameters."""
+RIGHT = "right"  # the outcome of an answer with right names, order and parameters
 
 
 def contrasts(

@@ -35,8 +35,7 @@ from planner_ft.training.samples import Split, read_split
 from planner_ft.vocabulary.plans import Level
 
 BEGUN, RUNS, RESULT = "curve.json", "runs", "learning_curve.json"
-TESTED = 4
-"""A benchmarked sample takes about as long as training on this many."""
+TESTED = 4  # A benchmarked sample takes about as long as training on this many
 SEED = 0  # of the bootstrap
 SHOWN = ("f1", "exact_sequence", "whole_plan")
 SAMPLES: dict[Level, str] = {"mission": "commands", "task": "task inputs"}

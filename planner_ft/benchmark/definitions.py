@@ -20,8 +20,7 @@ from planner_ft.support.files import read_toml
 from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.plans import check_level
 
-Kind = type | list[type]
-"""The type of a key's value; [str] is a list of texts."""
+Kind = type | list[type]  # the type of a key's value; [str] is a list of texts
 NUMBERS = ("limit", "max_new_tokens", "latency_samples", "planning_samples")
 REQUIRED = ("level", "candidate", "configuration", "thresholds")
 KEYS: dict[str, Kind] = {

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 FOLDER = Path(__file__).parent / "published"
 SAMPLES: dict[Level, int] = {"mission": 25, "task": 500}
 CONFIGURATIONS = ("base", "lora")
-VOCABULARY = "usv"
-"""The vocabulary that the published figures are about."""
+VOCABULARY = "usv"  # the vocabulary that the published figures are about
 PERCENT = ("hallucination", "schema_valid")
 
 

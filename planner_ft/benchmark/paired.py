@@ -14,8 +14,7 @@ from planner_ft.benchmark import statistics
 from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.support.tables import NOTHING, Cell
 
-Score = Mapping[str, Any]
-"""A line of scores.jsonl."""
+Score = Mapping[str, Any]  # A line of scores.jsonl
 Answers = Mapping[str, Sequence[Score]]
 """The scores of a system by sample id: one per sample, or one per repeat."""
 UNKNOWN = statistics.Estimate(None)

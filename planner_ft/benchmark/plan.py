@@ -31,8 +31,7 @@ TOKENIZER_FILES = (
     *("tokenizer*", "chat_template*", "vocab.json", "merges.txt"),
     *("special_tokens_map.json", "generation_config.json"),
 )
-SERVER_SEED = 0
-"""Sent to servers with temperature 0, for those that break ties by chance."""
+SERVER_SEED = 0  # sent to servers with temperature 0, for those that break ties by chance
 SERVED = "base, lora (a fine-tuned model, told no vocabulary), base+schema and lora+schema"
 Parts = dict[str, Any]
 

@@ -22,8 +22,7 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
 Record = dict[str, Any]
-Lines = Mapping[str, Mapping[str, Any]]
-"""Lines of predictions.jsonl or latency.jsonl by sample id."""
+Lines = Mapping[str, Mapping[str, Any]]  # lines of predictions.jsonl or latency.jsonl by sample id
 
 
 @dataclass(frozen=True)

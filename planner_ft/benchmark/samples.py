@@ -12,8 +12,7 @@ from planner_ft.support.files import iterate_jsonl, sha256_file
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, plan_names, step_skills
 
-SHOWN = 5
-"""Bad lines that an error lists before it only counts the rest."""
+SHOWN = 5  # bad lines that an error lists before it only counts the rest
 
 
 @dataclass(frozen=True)

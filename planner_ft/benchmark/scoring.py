@@ -20,8 +20,7 @@ from planner_ft.vocabulary.definition import ROLES
 from planner_ft.vocabulary.outputs import parse_output
 from planner_ft.vocabulary.plans import Level
 
-Value = float | bool | None
-"""A metric of one sample: None where the sample says nothing about it."""
+Value = float | bool | None  # A metric of one sample: None where the sample says nothing about it
 Values = dict[str, Value]
 Details = dict[str, Any]
 UNPARSED = "(does not parse)"

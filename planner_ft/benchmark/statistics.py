@@ -16,8 +16,7 @@ from planner_ft.support.tables import Cell, figure
 
 CONFIDENCE = 0.95
 RESAMPLES = 10_000
-BLOCK = 2**22
-"""Numbers that are worked on at a time."""
+BLOCK = 2**22  # numbers that are worked on at a time
 Floats = NDArray[np.float64]
 
 

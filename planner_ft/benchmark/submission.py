@@ -16,12 +16,10 @@ from planner_ft.support.files import iterate_jsonl
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
-CONFIGURATION = "submitted"
-"""Configuration of predictions that name none."""
+CONFIGURATION = "submitted"  # configuration of predictions that name none
 COUNTS = ("tokens", "latency_s", "forward_passes")
 
-Key = tuple[str, str, int | None]
-"""Candidate, configuration and repeat."""
+Key = tuple[str, str, int | None]  # candidate, configuration and repeat
 Lines = dict[str, dict[str, Any]]
 
 

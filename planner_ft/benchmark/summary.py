@@ -18,8 +18,7 @@ BESIDE = ("load_s", "adapter_swap_s", "peak_memory_bytes")
 """Costs of a candidate that do not belong to a query: run.json has them."""
 Figures = dict[str, Any]
 Scores = Sequence[SampleScore]
-Term = tuple[float, float, str]
-"""Numerator, denominator and family."""
+Term = tuple[float, float, str]  # numerator, denominator and family
 
 
 def summarise(

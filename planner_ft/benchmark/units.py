@@ -19,8 +19,7 @@ from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.support.files import read_json, write_json
 from planner_ft.support.resources import clock, end_with_parent
 
-UNIT = "unit.json"
-"""The file that a finished unit has."""
+UNIT = "unit.json"  # the file that a finished unit has
 LOGS = (PREDICTIONS, LATENCY, PLANNING)
 POLL, PATIENCE = 1.0, 20.0
 """Seconds between looks at a process, and that one which is ended has to go by itself."""

@@ -16,10 +16,8 @@ from planner_ft.vocabulary.plans import Level, list_key, step_skills
 Pair = tuple[int, int]
 Substitution = tuple[str | None, str | None]
 """(expected name, predicted name); None where nothing stands for it."""
-TASK = "task"
-"""The role of every entry of a mission plan."""
-LEADING = (TASK, "navigation")
-"""Roles of entries that are paired first: one of them makes a step."""
+TASK = "task"  # the role of every entry of a mission plan
+LEADING = (TASK, "navigation")  # roles of entries that are paired first: one of them makes a step
 COMPANY, NEARNESS = 1e-2, 1e-4
 """Weights that decide between equals, over all pairs, beside 1 for a pair's parameters."""
 

@@ -11,8 +11,7 @@ from typing import Any
 
 BINS = 10
 """Of equal width, as in Guo et al. 2017 (arXiv:1706.04599)."""
-APPROVED = 0.01
-"""Share of wrong plans up to which plans may be approved without a look at each."""
+APPROVED = 0.01  # share of wrong plans up to which plans may be approved without a look at each
 TENTH = 0.1
 
 

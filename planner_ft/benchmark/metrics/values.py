@@ -14,11 +14,9 @@ from planner_ft.vocabulary.plans import Level
 
 RELATIVE, ABSOLUTE = 0.02, 0.005
 """Tolerances of numbers: 2 % as the labelling rules allow, half a unit of the second decimal."""
-FARTHEST = 0.5
-"""Metres that a position may lie off: another whole metre is another place."""
+FARTHEST = 0.5  # metres that a position may lie off: another whole metre is another place
 ROUNDING = 1e-9
-LONGEST = 40
-"""Characters of a text that is read as one quantity."""
+LONGEST = 40  # characters of a text that is read as one quantity
 
 Parameters = dict[str, Any]
 

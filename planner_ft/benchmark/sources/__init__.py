@@ -13,8 +13,7 @@ if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
     from planner_ft.benchmark.samples import Sample
 
-Fields = dict[str, Any]
-"""Fields of a line; those that a source cannot know are None."""
+Fields = dict[str, Any]  # fields of a line; those that a source cannot know are None
 
 
 class AnswerSource(Protocol):

@@ -29,8 +29,7 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.5, 30.0
 """Seconds before a second attempt, doubled up to the longest, less up to a random half."""
 LONGEST_WAIT = 600.0
 """Seconds that a server may ask us to wait (Retry-After) before we call it closed."""
-PASSING = frozenset({408, 409, 425, 429})
-"""Statuses below 500 that may pass."""
+PASSING = frozenset({408, 409, 425, 429})  # statuses below 500 that may pass
 KEPT = "what is answered so far is kept for --resume"
 
 

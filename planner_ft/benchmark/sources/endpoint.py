@@ -31,8 +31,7 @@ LOGPROBS = {"logprobs": True, "top_logprobs": 3}
 GREETING = "Greet me in one word."
 FORMS = ("json_schema", "json_object")
 """Ways of asking for a schema: OpenAI's (vLLM, Ollama, llama.cpp), llama.cpp's older one."""
-PROBE_ANSWER = {"probe": "buoy 41"}
-"""An answer that no model gives unless it is held to a schema."""
+PROBE_ANSWER = {"probe": "buoy 41"}  # an answer that no model gives unless it is held to a schema
 PROBE_SCHEMA: Schema = {"type": "object", "properties": {"probe": {"const": "buoy 41"}}}
 PROBE_SCHEMA |= {"required": ["probe"], "additionalProperties": False}
 

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
     from planner_ft.decoding.generate import Generation, Query
 
-SWAPS = 3
-"""How often the adapter is put on and off to time it."""
+SWAPS = 3  # how often the adapter is put on and off to time it
 
 
 class EngineSource:

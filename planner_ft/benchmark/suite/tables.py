@@ -15,8 +15,7 @@ from planner_ft.benchmark.results import Results, heading
 from planner_ft.support.files import read_text, write_json, write_text
 from planner_ft.support.tables import Table, TableRow, csv_text, latex_table, markdown_table, row
 
-FIGURES = ("f1", "whole_plan", "latency_s")
-"""The metrics of the overview."""
+FIGURES = ("f1", "whole_plan", "latency_s")  # the metrics of the overview
 GROUPS = {False: "Published-size splits", True: "Reported apart: data beyond the published size"}
 HOW = (
     "In brackets 95 % intervals. Every metric, published figures and notes: table.md in the"
