@@ -13,8 +13,8 @@ import itertools
 import time
 from typing import Any
 
-from planner_ft.benchmark.samples import Sample
-from planner_ft.benchmark.scoring import Answer, plan_logic
+from planner_ft.benchmark.metrics.failures import Answer
+from planner_ft.benchmark.scoring import plan_logic
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.facts import corrections
@@ -27,15 +27,13 @@ USV = load_vocabulary()
 
 def measure(name: str, level: Level, records: list[dict[str, Any]]) -> None:
     """Print a line of figures for some records."""
-    answers = [
-        Answer(level, Sample(str(number), str(number), record), record["expected"], USV)
-        for number, record in enumerate(records)
-    ]
+    expected = [record["expected"] for record in records]
+    judged = [(Answer(level, one, one, USV), of) for one, of in zip(expected, records, strict=True)]
     started = time.process_time()
-    found = [plan_logic(answer)[0] for answer in answers]
+    found = [plan_logic(*one)[0] for one in judged]
     first = time.process_time()
-    for answer in answers:
-        plan_logic(answer)
+    for one in judged:
+        plan_logic(*one)
     again = time.process_time()
     total = {key: sum(int(values[key] or 0) for values in found) for key in found[0]}
     print(

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from planner_ft.benchmark.metrics import failures, names
-from planner_ft.benchmark.metrics.alignment import Alignment, Entry, align, plan_entries
+from planner_ft.benchmark.metrics.alignment import Alignment
 from planner_ft.benchmark.metrics.facts import KINDS, groundedness, slot_propagation
+from planner_ft.benchmark.metrics.failures import Answer
 from planner_ft.benchmark.metrics.names import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
 from planner_ft.confidence.parts import from_json, parts
@@ -26,42 +26,6 @@ Details = dict[str, Any]
 UNPARSED = "(does not parse)"
 UNPARSED_COUNTS: dict[Level, bool] = {"mission": True, "task": False}
 """Whether the published tables count an answer that does not parse as hallucinated."""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """A sample with the plan that was answered, if any, and what several metrics need."""
-
-    level: Level
-    sample: Sample
-    plan: dict[str, Any] | None
-    vocabulary: Vocabulary
-
-    @property
-    def expected(self) -> dict[str, Any]:
-        return self.sample.expected
-
-    @functools.cached_property
-    def wanted(self) -> tuple[Entry, ...]:
-        """The expected tasks or skills."""
-        return plan_entries(self.level, self.expected)
-
-    @functools.cached_property
-    def given(self) -> tuple[Entry, ...]:
-        """The predicted tasks or skills; none when the output does not parse."""
-        return plan_entries(self.level, self.plan)
-
-    @functools.cached_property
-    def alignment(self) -> Alignment:
-        return align(self.level, self.wanted, self.given, self.vocabulary)
-
-    @functools.cached_property
-    def strict_valid(self) -> bool:
-        return failures.strict_valid(self.level, self.plan, self.vocabulary)
-
-    @functools.cached_property
-    def schema_valid(self) -> bool:
-        return self.strict_valid or failures.schema_valid(self.level, self.plan, self.vocabulary)
 
 
 @dataclass(frozen=True)
@@ -97,16 +61,15 @@ def score_sample(
 ) -> SampleScore:
     """Score one prediction (None: an empty output) with the sample's timed query, if any."""
     prediction, timed = prediction or {}, timed or {}
-    answer = Answer(level, sample, parse_output(prediction.get("output")).plan, vocabulary)
-    judged, valid = (level, answer.plan, answer.expected, vocabulary), answer.schema_valid
-    failure = failures.failure_kind(*judged, valid=valid)
-    logic, details = plan_logic(answer)
+    plan = parse_output(prediction.get("output")).plan
+    answer = Answer(level, plan, sample.expected, vocabulary)
+    failure = failures.failure_kind(answer)
+    logic, details = plan_logic(answer, sample.record)
     found = compare_parameters(level, answer.alignment, vocabulary)
     values = _published(answer) | _names(answer) | _parameters(found) | logic
-    unordered = failure is None or (valid and failures.whole_plan_unordered(*judged))
     values |= {
         "whole_plan": failure is None,
-        "whole_plan_unordered": unordered,
+        "whole_plan_unordered": failure is None or failures.whole_plan_unordered(answer),
         "tokens": prediction.get("tokens"),
         "latency_s": timed.get("latency_s"),
         "forward_passes": timed.get("forward_passes"),
@@ -134,7 +97,7 @@ def _confidence(answer: Answer, prediction: Mapping[str, Any]) -> Details:
 
 def _published(answer: Answer) -> Values:
     """Hallucination in both readings and validity, as the published tables have them."""
-    invented = bool(failures.invented_names(answer.level, answer.plan, answer.vocabulary))
+    invented = bool(answer.invented)
     counted = invented or answer.plan is None
     return {
         "parsed": answer.plan is not None,
@@ -152,9 +115,8 @@ def _names(answer: Answer) -> Values:
     role, and the order of steps. Where nothing is expected, an answer that does not parse is not
     taken for one that names nothing.
     """
-    level, task_level = answer.level, answer.level == "task"
+    task_level, steps = answer.level == "task", list(answer.sequences)
     both = [entry.name for entry in answer.given], [entry.name for entry in answer.wanted]
-    steps = [names.name_sequence(level, plan) for plan in (answer.plan or {}, answer.expected)]
     if answer.plan is None and not answer.wanted:
         both, steps[0] = ([UNPARSED], []), [(UNPARSED,)]
     values: Values = {}
@@ -168,7 +130,7 @@ def _names(answer: Answer) -> Values:
             values |= _pooled(role, by_role.get(role, names.Counts(0, 0, 0)))
     flat = [[name for step in sequence for name in step] for sequence in steps]
     return values | {
-        "exact_sequence": answer.plan is not None and steps[0] == steps[1],
+        "exact_sequence": answer.exact_sequence,
         "edit_distance": names.edit_distance(*flat),
         "step_edit_distance": names.edit_distance(*steps) if task_level else None,
         "lcs_f1": names.common_subsequence(*flat).f1,
@@ -190,15 +152,15 @@ def _pooled(prefix: str, counts: names.Counts) -> Values:
     return {f"{prefix}_right": counts.right, f"{prefix}_size": size}
 
 
-def plan_logic(answer: Answer) -> tuple[Values, Details]:
-    """Metrics that read the command and replay the plan, and details that explain them: `stop`
+def plan_logic(answer: Answer, record: dict[str, Any]) -> tuple[Values, Details]:
+    """Metrics that read the command (of the sample) and replay the plan, and details: `stop`
     (where the plan stops), `ungrounded` values, and `slots` per kind as [stated, in parameters, in
     the task prompt (null at task level)]. An answer that does not parse is not grounded, since it
     gives nothing to judge.
     """
     level, plan, vocabulary = answer.level, answer.plan, answer.vocabulary
     mission = level == "mission"
-    source = read_input(answer.sample.record, vocabulary)
+    source = read_input(record, vocabulary)
     grounded = groundedness(level, answer.given, source, vocabulary)
     reached = slot_propagation(level, plan, answer.alignment, source, vocabulary)
     stop = failures.executable(plan, answer.expected, vocabulary) if mission else None

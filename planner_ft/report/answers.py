@@ -11,8 +11,14 @@ from typing import Any, Literal, NamedTuple
 
 from rapidfuzz.distance import LCSseq
 
-from planner_ft.benchmark.metrics.alignment import Entries, Entry, align, plan_entries, replaced
-from planner_ft.benchmark.metrics.values import changed_keys
+from planner_ft.benchmark.metrics.alignment import (
+    Entries,
+    Entry,
+    align,
+    changed_keys,
+    plan_entries,
+    replaced,
+)
 from planner_ft.benchmark.results import Row
 from planner_ft.report.runs import TestSet
 from planner_ft.vocabulary import Vocabulary
@@ -144,7 +150,7 @@ def differences(
             moved = (one.step, one.role) != (other.step, other.role)
         changed: tuple[str, ...] = ()
         if one.stated:
-            changed = changed_keys(level, one.name, other.parameters, one.parameters, vocabulary)
+            changed = changed_keys(level, other, one, vocabulary)
         mark: Mark = "changed" if changed else "moved" if moved else "same"
         lines[pair[0]] = Difference(mark, *pair, changed)
     for ours, theirs in replaced(alignment).items():

@@ -9,20 +9,8 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
-from planner_ft.benchmark.metrics.failures import (
-    FAILURES,
-    PUBLISHED,
-    failure_kind,
-    invented_names,
-    schema_valid,
-    strict_valid,
-)
-from planner_ft.benchmark.metrics.names import (
-    Parameters,
-    compare_parameters,
-    exact_sequence,
-    set_counts,
-)
+from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED, Answer, failure_kind
+from planner_ft.benchmark.metrics.names import Parameters, compare_parameters, set_counts
 from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
@@ -102,20 +90,20 @@ def test_hallucination_in_both_readings() -> None:
         assert values["hallucination"] == values["hallucination_with_unparsed"] == counted
         assert values["hallucination_without_unparsed"] == named
     smelt = {"skill_sequence": [step(("StationKeep", {}), perception=("SmellWater",))]}
-    assert invented_names("task", smelt, USV) == ["SmellWater"]
+    assert Answer("task", smelt, {}, USV).invented == ["SmellWater"]
 
 
 def test_an_invented_name_is_schema_valid_but_not_strictly_valid() -> None:
     invented = mission(("Berthing", {}))
-    assert schema_valid("mission", invented, USV)
-    assert not strict_valid("mission", invented, USV)
-    assert schema_valid("mission", ORBIT, USV)
-    assert strict_valid("mission", ORBIT, USV)
-    assert not schema_valid("mission", {"tasks": []}, USV)
-    assert not schema_valid("mission", None, USV)
+    assert Answer("mission", invented, {}, USV).schema_valid
+    assert not Answer("mission", invented, {}, USV).strict_valid
+    assert Answer("mission", ORBIT, {}, USV).schema_valid
+    assert Answer("mission", ORBIT, {}, USV).strict_valid
+    assert not Answer("mission", {"tasks": []}, {}, USV).schema_valid
+    assert not Answer("mission", None, {}, USV).schema_valid
     wrong_role = {"skill_sequence": [step(("LockHeading", {"heading": 0}))]}
-    assert schema_valid("task", wrong_role, USV)
-    assert not strict_valid("task", wrong_role, USV)
+    assert Answer("task", wrong_role, {}, USV).schema_valid
+    assert not Answer("task", wrong_role, {}, USV).strict_valid
 
 
 def test_the_published_agent_failed_on_nine_of_25_commands() -> None:
@@ -129,11 +117,13 @@ def test_the_published_agent_failed_on_nine_of_25_commands() -> None:
 
 
 def test_exact_sequence_minds_order_and_repetition() -> None:
-    assert exact_sequence("mission", copy.deepcopy(ORBIT), ORBIT)
-    assert not exact_sequence("mission", {**ORBIT, "tasks": ORBIT["tasks"][::-1]}, ORBIT)
-    assert not exact_sequence("mission", {**ORBIT, "tasks": ORBIT["tasks"][:3]}, ORBIT)
-    assert not exact_sequence("mission", None, mission())
-    assert exact_sequence("mission", mission(), mission())
+    assert Answer("mission", copy.deepcopy(ORBIT), ORBIT, USV).exact_sequence
+    assert not Answer(
+        "mission", {**ORBIT, "tasks": ORBIT["tasks"][::-1]}, ORBIT, USV
+    ).exact_sequence
+    assert not Answer("mission", {**ORBIT, "tasks": ORBIT["tasks"][:3]}, ORBIT, USV).exact_sequence
+    assert not Answer("mission", None, mission(), USV).exact_sequence
+    assert Answer("mission", mission(), mission(), USV).exact_sequence
 
 
 def test_exact_sequence_ignores_the_order_of_skills_that_run_together() -> None:
@@ -153,8 +143,8 @@ def test_exact_sequence_ignores_the_order_of_skills_that_run_together() -> None:
             step(("StationKeep", {}), perception=("DetectObjects",)),
         ]
     }
-    assert exact_sequence("task", here, there)
-    assert not exact_sequence("task", apart, here)
+    assert Answer("task", here, there, USV).exact_sequence
+    assert not Answer("task", apart, here, USV).exact_sequence
 
 
 @pytest.mark.parametrize(
@@ -226,7 +216,7 @@ def test_an_invented_parameter_is_wrong_and_an_unlabelled_one_is_not_compared() 
     assert parameter_agreement("mission", extra, stated).right == 0
     names_only = {"tasks": [{"title": "PerformOrbit"}]}
     assert parameter_agreement("mission", extra, names_only).matched == 0
-    assert failure_kind("mission", extra, names_only, USV) is None
+    assert failure_kind(Answer("mission", extra, names_only, USV)) is None
 
 
 def changed_orbit(index: int, **parameters: Any) -> dict[str, Any]:
@@ -280,7 +270,7 @@ def retitled(index: int, title: str) -> dict[str, Any]:
     ],
 )
 def test_failure_kinds_of_the_mission_level(plan: dict[str, Any] | None, kind: str | None) -> None:
-    assert failure_kind("mission", plan, ORBIT, USV) == kind
+    assert failure_kind(Answer("mission", plan, ORBIT, USV)) == kind
 
 
 def test_an_upstream_transit_without_a_later_one_is_a_prerequisite() -> None:
@@ -289,7 +279,7 @@ def test_an_upstream_transit_without_a_later_one_is_a_prerequisite() -> None:
         ("KeepStation", {"position": [5, 5], "duration": 60}),
     )
     assert (
-        failure_kind("mission", {**expected, "tasks": expected["tasks"][1:]}, expected, USV)
+        failure_kind(Answer("mission", {**expected, "tasks": expected["tasks"][1:]}, expected, USV))
         == "prerequisite omission"
     )
 
@@ -301,16 +291,20 @@ def test_failure_kinds_of_the_task_level() -> None:
             step(("StationKeep", {"time": 60})),
         ]
     }
-    assert failure_kind("task", copy.deepcopy(expected), expected, USV) is None
+    assert failure_kind(Answer("task", copy.deepcopy(expected), expected, USV)) is None
     moved = copy.deepcopy(expected)
     moved["skill_sequence"][0]["navigation_skill"]["parameters"]["x"] = 3
-    assert failure_kind("task", moved, expected, USV) == "parameter propagation"
+    assert failure_kind(Answer("task", moved, expected, USV)) == "parameter propagation"
     assert (
-        failure_kind("task", {"skill_sequence": expected["skill_sequence"][:1]}, expected, USV)
+        failure_kind(
+            Answer("task", {"skill_sequence": expected["skill_sequence"][:1]}, expected, USV)
+        )
         == "omission"
     )
     assert (
-        failure_kind("task", {"skill_sequence": expected["skill_sequence"][::-1]}, expected, USV)
+        failure_kind(
+            Answer("task", {"skill_sequence": expected["skill_sequence"][::-1]}, expected, USV)
+        )
         == "wrong order"
     )
 
@@ -341,8 +335,8 @@ def test_metrics_survive_any_json() -> None:
         plan = anything(5)
         if isinstance(plan, dict):
             for level in ("mission", "task"):
-                assert failure_kind(level, plan, expected[level], USV) is not None
+                answer = Answer(level, plan, expected[level], USV)
+                assert failure_kind(answer) is not None
                 parameter_agreement(level, plan, expected[level])
-                invented_names(level, plan, USV)
-                strict_valid(level, plan, USV)
-                exact_sequence(level, plan, expected[level])
+                assert isinstance(answer.invented, list)
+                assert {type(answer.strict_valid), type(answer.exact_sequence)} == {bool}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import plan_entries
-from planner_ft.benchmark.metrics.failures import whole_plan_unordered
+from planner_ft.benchmark.metrics.failures import Answer, whole_plan_unordered
 from planner_ft.benchmark.metrics.names import (
     Counts,
     common_subsequence,
@@ -123,11 +123,15 @@ def test_edge_f1(predicted: str, expected: str, f1: float) -> None:
 def test_a_whole_plan_in_any_order() -> None:
     there, home = ("Transit", {"target_position": [5, 5]}), ("Transit", {"target_position": [0, 0]})
     expected = mission(there, "Diagnostics", home)
-    assert whole_plan_unordered("mission", mission(home, there, "Diagnostics"), expected, USV)
-    assert not whole_plan_unordered("mission", mission(home, home, "Diagnostics"), expected, USV)
-    assert not whole_plan_unordered("mission", mission(home, there), expected, USV)
-    assert not whole_plan_unordered("mission", None, expected, USV)
-    assert not whole_plan_unordered("mission", {"tasks": expected["tasks"]}, expected, USV)
+    assert whole_plan_unordered(
+        Answer("mission", mission(home, there, "Diagnostics"), expected, USV)
+    )
+    assert not whole_plan_unordered(
+        Answer("mission", mission(home, home, "Diagnostics"), expected, USV)
+    )
+    assert not whole_plan_unordered(Answer("mission", mission(home, there), expected, USV))
+    assert not whole_plan_unordered(Answer("mission", None, expected, USV))
+    assert not whole_plan_unordered(Answer("mission", {"tasks": expected["tasks"]}, expected, USV))
 
 
 def test_skills_of_one_step_stay_in_one_step() -> None:
@@ -135,12 +139,14 @@ def test_skills_of_one_step_stay_in_one_step() -> None:
         step("StationKeep", perception=("DetectObjects",)),
         step(("GoToXY", {"x": 1, "y": 2}), perception=("GetGPSLocation",)),
     )
-    assert whole_plan_unordered("task", steps(*expected["skill_sequence"][::-1]), expected, USV)
+    assert whole_plan_unordered(
+        Answer("task", steps(*expected["skill_sequence"][::-1]), expected, USV)
+    )
     mixed = steps(
         step("StationKeep", perception=("GetGPSLocation",)),
         step(("GoToXY", {"x": 1, "y": 2}), perception=("DetectObjects",)),
     )
-    assert not whole_plan_unordered("task", mixed, expected, USV)
+    assert not whole_plan_unordered(Answer("task", mixed, expected, USV))
 
 
 def test_the_same_skill_twice_in_a_step_is_compared_in_any_order() -> None:
@@ -150,10 +156,10 @@ def test_the_same_skill_twice_in_a_step_is_compared_in_any_order() -> None:
     )
     expected = steps(step("StationKeep", perception=(low, high)))
     assert whole_plan_unordered(
-        "task", steps(step("StationKeep", perception=(high, low))), expected, USV
+        Answer("task", steps(step("StationKeep", perception=(high, low))), expected, USV)
     )
     assert not whole_plan_unordered(
-        "task", steps(step("StationKeep", perception=(high, high))), expected, USV
+        Answer("task", steps(step("StationKeep", perception=(high, high))), expected, USV)
     )
 
 

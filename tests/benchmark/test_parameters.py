@@ -6,14 +6,15 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import align, plan_entries
-from planner_ft.benchmark.metrics.names import Counts, Parameters, compare_parameters
-from planner_ft.benchmark.metrics.values import (
+from planner_ft.benchmark.metrics.alignment import (
+    Entry,
     agreeing_keys,
+    align,
     changed_keys,
-    known_parameters,
-    values_agree,
+    plan_entries,
 )
+from planner_ft.benchmark.metrics.names import Counts, Parameters, compare_parameters
+from planner_ft.benchmark.metrics.values import known_parameters, values_agree
 from planner_ft.vocabulary import Parameter, load_vocabulary
 
 from .plans import mission
@@ -152,14 +153,17 @@ def test_a_text_of_up_to_40_characters_is_read_as_a_quantity() -> None:
 
 
 def test_changed_keys_are_those_of_either_side() -> None:
+    def pair(name: str, *parameters: dict[str, Any]) -> list[Entry]:
+        return [Entry(name, "task", 0, one, True) for one in parameters]
+
     given, stated = {"radius": 21, "speed": 2}, {"center": [1, 1], "radius": 20}
-    judged = ("mission", "PerformOrbit", given, stated, USV)
-    assert changed_keys(*judged) == ("center", "radius", "speed")
-    assert changed_keys("mission", "PerformOrbit", {**stated, "radius": 20.1}, stated, USV) == ()
-    assert changed_keys(
-        "mission", "KeepStation", {"duration": "5 min"}, {"duration": 300}, USV
-    ) == ("duration",)
-    assert agreeing_keys("mission", "KeepStation", {"duration": "5 min"}, {"duration": 300}, USV)
+    judged = pair("PerformOrbit", given, stated)
+    assert changed_keys("mission", *judged, USV) == ("center", "radius", "speed")
+    judged = pair("PerformOrbit", {**stated, "radius": 20.1}, stated)
+    assert changed_keys("mission", *judged, USV) == ()
+    judged = pair("KeepStation", {"duration": "5 min"}, {"duration": 300})
+    assert changed_keys("mission", *judged, USV) == ("duration",)
+    assert agreeing_keys("mission", *judged, USV)
     assert set(known_parameters("task", "GoToXY", USV)) > {"x", "y"}
     assert known_parameters("mission", "GoToXY", USV) == known_parameters("task", "Sail", USV) == {}
 

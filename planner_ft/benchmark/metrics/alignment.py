@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.benchmark.metrics.values import agreeing_keys, parameters_agree
+from planner_ft.benchmark.metrics.values import known_parameters, values_agree
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
@@ -49,6 +49,31 @@ def plan_entries(level: Level, plan: Any) -> Entries:
                 known = given if isinstance(given, dict) else {}
                 found.append(Entry(str(name), role, step, known, known is given))
     return tuple(found)
+
+
+def agreeing_keys(
+    level: Level, given: Entry, stated: Entry, vocabulary: Vocabulary, *, loose: bool = True
+) -> list[str]:
+    """Parameters under which both entries have the same content, or value (`values_agree`)."""
+    ours, theirs = stated.parameters, given.parameters
+    if ours == theirs:
+        return list(ours)
+    known = known_parameters(level, stated.name, vocabulary)
+    return [
+        key
+        for key, value in ours.items()
+        if key in theirs
+        and values_agree(theirs[key], value, known.get(key), vocabulary, loose=loose)
+    ]
+
+
+def changed_keys(
+    level: Level, given: Entry, stated: Entry, vocabulary: Vocabulary
+) -> tuple[str, ...]:
+    """Parameters of either entry whose values do not agree, and those of one alone."""
+    same = agreeing_keys(level, given, stated, vocabulary, loose=False)
+    every = dict.fromkeys([*stated.parameters, *given.parameters])
+    return tuple(key for key in every if key not in same)
 
 
 @dataclass(frozen=True)
@@ -150,13 +175,12 @@ def _assigned(
 
 def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: Vocabulary) -> float:
     """F1 of key-value pairs, and more than all those together where all parameters are right."""
-    stated, given = ours.parameters, theirs.parameters
     if not ours.stated:
         return 0.0
-    agreeing = agreeing_keys(level, ours.name, given, stated, vocabulary)
-    share = 1.0 if stated == given else 2 * len(agreeing) / (len(stated) + len(given))
-    right = share == 1.0 and parameters_agree(level, ours.name, given, stated, vocabulary)
-    return share + size * right
+    agreeing = agreeing_keys(level, theirs, ours, vocabulary)
+    total = len(ours.parameters) + len(theirs.parameters)
+    share = 2 * len(agreeing) / total if total else 1.0
+    return share + size * (share == 1.0 and not changed_keys(level, theirs, ours, vocabulary))
 
 
 def _by_name(entries: Entries, leading: set[str], lead: bool) -> dict[str, list[int]]:

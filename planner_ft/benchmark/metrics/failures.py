@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import functools
 from collections import Counter, defaultdict
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Literal, get_args
 
-from planner_ft.benchmark.metrics.alignment import Entry, align, plan_entries
-from planner_ft.benchmark.metrics.names import exact_sequence, name_sequence
-from planner_ft.benchmark.metrics.values import parameters_agree
+from planner_ft.benchmark.metrics.alignment import (
+    Alignment,
+    Entries,
+    align,
+    changed_keys,
+    plan_entries,
+)
+from planner_ft.benchmark.metrics.names import name_sequence
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import Level, list_key, named_entries, plan_problems
+from planner_ft.vocabulary.plans import Level, list_key, plan_problems
 from planner_ft.vocabulary.replay import Stop, on_board, replay
 
 Failure = Literal[
@@ -28,23 +35,57 @@ FAILURES: tuple[Failure, ...] = get_args(Failure)
 PUBLISHED: dict[Failure, int] = dict(zip(FAILURES, (4, 2, 2, 1), strict=False))
 """Failures of the published mission agent in 25 answers; of the other kinds there was none."""
 Plan = dict[str, Any]
-Step = tuple[Entry, ...]
 
 
-def schema_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
-    """Whether an answer has a plan's structure, as published (LEVEL.schema.json)."""
-    return plan is not None and not plan_problems(level, plan, vocabulary, strict=False)
+@dataclass(frozen=True)
+class Answer:
+    """A plan that was answered, if any, beside the expected one, and what several metrics need."""
 
+    level: Level
+    plan: Plan | None
+    expected: Plan
+    vocabulary: Vocabulary
 
-def strict_valid(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> bool:
-    """Whether names, roles, types and ranges are the vocabulary's (LEVEL.strict.schema.json)."""
-    return plan is not None and not plan_problems(level, plan, vocabulary, strict=True)
+    @functools.cached_property
+    def wanted(self) -> Entries:
+        """The expected tasks or skills."""
+        return plan_entries(self.level, self.expected)
 
+    @functools.cached_property
+    def given(self) -> Entries:
+        """The predicted tasks or skills; none when the output does not parse."""
+        return plan_entries(self.level, self.plan)
 
-def invented_names(level: Level, plan: Plan | None, vocabulary: Vocabulary) -> list[str]:
-    """Names of the plan that are not in the vocabulary, in order."""
-    known = vocabulary.task if level == "mission" else vocabulary.skill
-    return [entry.name for entry in plan_entries(level, plan) if entry.name not in known]
+    @functools.cached_property
+    def alignment(self) -> Alignment:
+        return align(self.level, self.wanted, self.given, self.vocabulary)
+
+    @functools.cached_property
+    def strict_valid(self) -> bool:
+        """Whether names, roles, types, ranges are the vocabulary's (LEVEL.strict.schema.json)."""
+        return not plan_problems(self.level, self.plan, self.vocabulary, strict=True)
+
+    @functools.cached_property
+    def schema_valid(self) -> bool:
+        """Whether it has a plan's structure, as published (LEVEL.schema.json)."""
+        structure = self.level, self.plan, self.vocabulary
+        return self.strict_valid or not plan_problems(*structure, strict=False)
+
+    @functools.cached_property
+    def invented(self) -> list[str]:
+        """Names of the plan that are not in the vocabulary, in order."""
+        known = self.vocabulary.task if self.level == "mission" else self.vocabulary.skill
+        return [entry.name for entry in self.given if entry.name not in known]
+
+    @functools.cached_property
+    def sequences(self) -> list[list[tuple[str, ...]]]:
+        """The names in order that are predicted, and those that are expected."""
+        return [name_sequence(self.level, plan) for plan in (self.plan or {}, self.expected)]
+
+    @property
+    def exact_sequence(self) -> bool:
+        """Whether it parses and has exactly the expected tasks, or steps, in their order."""
+        return self.plan is not None and self.sequences[0] == self.sequences[1]
 
 
 def refuses(level: Level, plan: Plan | None) -> bool:
@@ -52,16 +93,8 @@ def refuses(level: Level, plan: Plan | None) -> bool:
     return plan is not None and plan.get(list_key(level)) == []
 
 
-def failure_kind(
-    level: Level,
-    plan: Plan | None,
-    expected: Plan,
-    vocabulary: Vocabulary,
-    *,
-    valid: bool | None = None,
-) -> Failure | None:
-    """Why an answer is wrong, or None when names, order and parameters are all right; `valid` says
-    whether it is schema-valid, where that is known.
+def failure_kind(answer: Answer) -> Failure | None:
+    """Why an answer is wrong, or None when names, order and parameters are all right.
 
     The first that holds:
 
@@ -78,23 +111,23 @@ def failure_kind(
       propagation;
     - wrong order: the right names in another order (or, at task level, in other steps or roles).
     """
-    if plan is None or not (schema_valid(level, plan, vocabulary) if valid is None else valid):
+    if not answer.schema_valid:
         return "invalid output"
-    if invented_names(level, plan, vocabulary):
+    if answer.invented:
         return "hallucination"
-    if exact_sequence(level, plan, expected):
+    level, vocabulary = answer.level, answer.vocabulary
+    if answer.exact_sequence:
         # Task by task, or step by step: the two targets of two Transits must not be swapped.
-        steps = zip(_steps(level, expected), _steps(level, plan), strict=True)
+        steps = zip(_steps(answer.wanted), _steps(answer.given), strict=True)
         right = all(_step_right(level, *pair, vocabulary) for pair in steps)
         return None if right else "parameter propagation"
-    predicted, wanted = list(named_entries(level, plan)), list(named_entries(level, expected))
-    ours, theirs = (Counter(name for name, _ in entries) for entries in (predicted, wanted))
+    ours, theirs = (Counter(one.name for one in side) for side in (answer.given, answer.wanted))
     missing, added, nowhere = theirs - ours, ours - theirs, list(vocabulary.unresolved)
-    unresolved = Counter(name for name, values in predicted if nowhere in values.values())
+    unresolved = Counter(one.name for one in answer.given if nowhere in one.parameters.values())
     if missing:
-        pairs = zip(predicted, wanted, strict=False)
+        pairs = zip(answer.given, answer.wanted, strict=False)
         # Something is planned after the first expected name that is missing.
-        goes_on = not added and any(one[0] != other[0] for one, other in pairs)
+        goes_on = not added and any(one.name != other.name for one, other in pairs)
         unlocated = vocabulary.locate in missing and bool(unresolved)
         if level == "mission" and (unlocated or goes_on):
             return "prerequisite omission"
@@ -104,20 +137,17 @@ def failure_kind(
     return "wrong order"
 
 
-def whole_plan_unordered(
-    level: Level, plan: Plan | None, expected: Plan, vocabulary: Vocabulary
-) -> bool:
+def whole_plan_unordered(answer: Answer) -> bool:
     """Whether a valid answer has the right tasks, or whole steps, as expected, in any order."""
-    if plan is None or not schema_valid(level, plan, vocabulary):
-        return False
-    if sorted(name_sequence(level, plan)) != sorted(name_sequence(level, expected)):
+    if not answer.schema_valid or sorted(answer.sequences[0]) != sorted(answer.sequences[1]):
         return False
     from scipy.optimize import linear_sum_assignment
 
-    ours, theirs = (_alike(level, one) for one in (expected, plan))
-    for names, steps in ours.items():
+    wanted, given = (_alike(entries) for entries in (answer.wanted, answer.given))
+    for names, steps in wanted.items():
         right = [
-            [_step_right(level, one, other, vocabulary) for other in theirs[names]] for one in steps
+            [_step_right(answer.level, one, other, answer.vocabulary) for other in given[names]]
+            for one in steps
         ]
         pairs = zip(*linear_sum_assignment(right, maximize=True), strict=True)
         if not all(right[row][column] for row, column in pairs):
@@ -125,25 +155,22 @@ def whole_plan_unordered(
     return True
 
 
-def _step_right(level: Level, expected: Step, predicted: Step, vocabulary: Vocabulary) -> bool:
+def _step_right(level: Level, expected: Entries, predicted: Entries, known: Vocabulary) -> bool:
     """Whether two steps with the same names have the same parameters."""
-    pairs = align(level, expected, predicted, vocabulary).matched()
-    return all(
-        parameters_agree(level, ours.name, theirs.parameters, ours.parameters, vocabulary)
-        for ours, theirs in pairs
-        if ours.stated
+    pairs = align(level, expected, predicted, known).matched()
+    return not any(
+        ours.stated and changed_keys(level, theirs, ours, known) for ours, theirs in pairs
     )
 
 
-def _steps(level: Level, plan: Plan) -> list[Step]:
-    entries = plan_entries(level, plan)
-    return [tuple(group) for _step, group in groupby(entries, key=lambda entry: entry.step)]
+def _steps(entries: Entries) -> list[Entries]:
+    return [tuple(step) for _index, step in groupby(entries, key=lambda entry: entry.step)]
 
 
-def _alike(level: Level, plan: Plan) -> dict[tuple[str, ...], list[Step]]:
+def _alike(entries: Entries) -> dict[tuple[str, ...], list[Entries]]:
     """A plan's steps by their names and roles."""
-    found: dict[tuple[str, ...], list[Step]] = defaultdict(list)
-    for step in _steps(level, plan):
+    found: dict[tuple[str, ...], list[Entries]] = defaultdict(list)
+    for step in _steps(entries):
         found[tuple(sorted(f"{entry.role} {entry.name}" for entry in step))].append(step)
     return found
 

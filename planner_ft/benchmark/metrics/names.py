@@ -13,8 +13,14 @@ from typing import Any, NamedTuple
 
 from rapidfuzz.distance import LCSseq, Levenshtein
 
-from planner_ft.benchmark.metrics.alignment import Alignment, Entry, plan_entries
-from planner_ft.benchmark.metrics.values import agreeing_keys, known_parameters, parameters_agree
+from planner_ft.benchmark.metrics.alignment import (
+    Alignment,
+    Entry,
+    agreeing_keys,
+    changed_keys,
+    plan_entries,
+)
+from planner_ft.benchmark.metrics.values import known_parameters
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
@@ -80,11 +86,6 @@ def name_sequence(level: Level, plan: dict[str, Any]) -> list[tuple[str, ...]]:
     ]
 
 
-def exact_sequence(level: Level, plan: dict[str, Any] | None, expected: dict[str, Any]) -> bool:
-    """Whether an answer that parses has exactly the expected tasks, or steps, in their order."""
-    return plan is not None and name_sequence(level, plan) == name_sequence(level, expected)
-
-
 def edit_distance(predicted: Sequence[Hashable], expected: Sequence[Hashable]) -> float:
     """Levenshtein distance (1966) over names or steps, by the longer length: 0.0 equal to 1.0."""
     return Levenshtein.normalized_distance(predicted, expected)
@@ -141,9 +142,9 @@ def compare_parameters(level: Level, alignment: Alignment, vocabulary: Vocabular
     right, keys = 0, 0
     agreed, there = Counter[str](), Counter[str]()
     for ours, theirs in pairs:
-        judged = level, ours.name, theirs.parameters, ours.parameters, vocabulary
-        known, agreeing = known_parameters(level, ours.name, vocabulary), agreeing_keys(*judged)
-        right += parameters_agree(*judged)
+        known = known_parameters(level, ours.name, vocabulary)
+        agreeing = agreeing_keys(level, theirs, ours, vocabulary)
+        right += not changed_keys(level, theirs, ours, vocabulary)
         keys += len(ours.parameters.keys() & theirs.parameters.keys())
         for key in ours.parameters:
             kind = known[key].type if key in known else "unknown"

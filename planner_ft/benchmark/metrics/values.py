@@ -18,8 +18,6 @@ FARTHEST = 0.5  # metres that a position may lie off: another whole metre is ano
 ROUNDING = 1e-9
 LONGEST = 40  # characters of a text that is read as one quantity
 
-Parameters = dict[str, Any]
-
 
 def values_agree(
     given: Any,
@@ -83,41 +81,6 @@ def known_parameters(level: Level, name: str, vocabulary: Vocabulary) -> dict[st
     """The parameters of a task or skill by name; none for a name outside the vocabulary."""
     owner = vocabulary.task.get(name) if level == "mission" else vocabulary.skill.get(name)
     return owner.by_name if owner else {}
-
-
-def parameters_agree(
-    level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
-) -> bool:
-    """Whether two parameter objects of a task or skill have the same keys with agreeing values."""
-    return not changed_keys(level, name, given, stated, vocabulary)
-
-
-def changed_keys(
-    level: Level, name: str, given: Parameters, stated: Parameters, vocabulary: Vocabulary
-) -> tuple[str, ...]:
-    """Keys of either object whose values do not agree, and keys of one alone."""
-    same = agreeing_keys(level, name, given, stated, vocabulary, loose=False)
-    return tuple(key for key in dict.fromkeys([*stated, *given]) if key not in same)
-
-
-def agreeing_keys(
-    level: Level,
-    name: str,
-    given: Parameters,
-    stated: Parameters,
-    vocabulary: Vocabulary,
-    *,
-    loose: bool = True,
-) -> list[str]:
-    """Keys under which both objects have the same content, or value (`values_agree`)."""
-    if given == stated:
-        return list(stated)
-    known = known_parameters(level, name, vocabulary)
-    return [
-        key
-        for key, value in stated.items()
-        if key in given and values_agree(given[key], value, known.get(key), vocabulary, loose=loose)
-    ]
 
 
 def _measured(text: str, unit: str | None) -> float | None:
