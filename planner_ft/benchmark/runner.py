@@ -10,7 +10,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.folder import Line, RecordLog, silent
@@ -18,13 +18,18 @@ from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.sources import AnswerSource, open_source
 from planner_ft.candidates.adapters import adapter_sha256, find_adapter
 from planner_ft.support.files import sha256_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.ranks import Ranks
 from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.outputs import parse_output
+
+if TYPE_CHECKING:
+    from planner_ft.benchmark.sources.endpoint import EndpointSource
+    from planner_ft.benchmark.sources.engine import EngineSource
+
+    Source = EndpointSource | EngineSource
 
 MOST = 10
 EASTS = (40, -35, 120, 15, -80, 70, -25, 160, -140, 5)
@@ -62,7 +67,7 @@ class _Run:
         with contextlib.ExitStack() as loaded:
             if needed:
                 self.progress(f"{jobs[0].candidate.name}: loading", 0, 0)
-                source = open_source(self.plan, jobs)
+                source = _source(self.plan, jobs)
                 loaded.callback(source.release)
                 for job, names in zip(jobs, missing, strict=True):
                     made = _answers(job, self._samples(names), source)
@@ -86,7 +91,18 @@ class _Run:
         return [sample for sample in self.plan.data.samples if sample.id in wanted]
 
 
-def _answers(job: Job, samples: list[Sample], source: AnswerSource) -> Iterator[Line]:
+def _source(plan: Plan, jobs: Sequence[Job]) -> Source:
+    """What answers these jobs of one candidate, loaded. Raises PlannerError."""
+    if plan.settings.endpoint is not None:
+        from planner_ft.benchmark.sources.endpoint import EndpointSource
+
+        return EndpointSource(plan, jobs, plan.settings.endpoint)
+    from planner_ft.benchmark.sources.engine import EngineSource
+
+    return EngineSource(plan, jobs)
+
+
+def _answers(job: Job, samples: list[Sample], source: Source) -> Iterator[Line]:
     """Lines of predictions.jsonl, as they come."""
     for index, answer in source.answers(job, samples):
         parsed = parse_output(answer["output"])
@@ -95,10 +111,12 @@ def _answers(job: Job, samples: list[Sample], source: AnswerSource) -> Iterator[
         yield {"id": samples[index].id, **job.named(), **answer, **beside}
 
 
-def _timed(job: Job, samples: list[Sample], source: AnswerSource) -> Iterator[Line]:
+def _timed(job: Job, samples: list[Sample], source: Source) -> Iterator[Line]:
     """Lines of latency.jsonl, one query at a time."""
-    for index, timed in source.latencies(job, samples):
-        yield {"id": samples[index].id, **job.named(), **timed}
+    for index, (seconds, tokens, passes, first) in source.latencies(job, samples):
+        named = {"id": samples[index].id, **job.named(), "latency_s": round(seconds, 6)}
+        begun = {} if first is None else {"first_token_s": round(first, 6)}
+        yield {**named, "tokens": tokens, "forward_passes": passes, **begun}
 
 
 def run_bench(

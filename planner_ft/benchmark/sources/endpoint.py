@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.benchmark.plan import SERVER_SEED
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import EndpointSettings
-from planner_ft.benchmark.sources import Fields, timed
+from planner_ft.benchmark.sources import Fields, Timed
 from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Unanswerable
 from planner_ft.benchmark.sources.replies import Reply
 from planner_ft.confidence.parts import as_json
@@ -50,8 +50,10 @@ class EndpointSource:
             self.client.complete(self._greeting(1))
             heeded = self._tried(self._greeting(1, **UNPENALISED))
             self.fields: dict[str, Any] = dict(UNPENALISED if heeded else {})
-            # Streams time an answer: what is asked for beside it would be timed, too.
-            self.asked: dict[str, Any] = LOGPROBS if self._tells() else {}
+            # Only log-probabilities that can be believed. Streams time an answer: what is asked for
+            # beside it would be timed, too.
+            told = self._tried(self._greeting(4, **LOGPROBS))
+            self.asked: dict[str, Any] = LOGPROBS if told and told.choices is not None else {}
             held = any(job.configuration.strength == "schema" for job in jobs)
             self.schema_form = self._accepted_form() if held else None
         except BaseException:
@@ -64,17 +66,13 @@ class EndpointSource:
         bodies = [{**self.request(job, sample), **self.asked} for sample in samples]
         yield from self.client.complete_all(self._answered, bodies)
 
-    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
+    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
         """One question at a time, streamed if the server streams, after one that is not counted."""
         bodies = [self.request(job, sample) for sample in samples]
         for index, body in enumerate([*bodies[:1], *bodies], -1):
-            started = time.perf_counter()
-            try:
-                reply = self._streamed(body)
-            except Unanswerable:
-                reply = Reply("", time.perf_counter() - started, "error", tokens=0)
+            reply = self._reply(body, stream=self.streams)
             if index >= 0:
-                yield index, timed(reply.seconds, reply.tokens, None, reply.first_token_s)
+                yield index, (reply.seconds, reply.tokens, None, reply.first_token_s)
 
     def costs(self) -> dict[str, Any]:
         return {
@@ -94,54 +92,45 @@ class EndpointSource:
         told = job.with_vocabulary
         messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=told)
         body = {**self._body(messages, self.plan.settings.token_limit), **self.fields}
-        if job.sampling is not None:
-            body |= {
-                "temperature": job.sampling.temperature,
-                "top_p": job.sampling.top_p,
-                "seed": job.sampling.seed_of(sample.id) % 2**31,
-            }
+        if (drawn := job.sampling) is not None:
+            body |= {"temperature": drawn.temperature, "top_p": drawn.top_p}
+            body["seed"] = drawn.seed_of(sample.id) % 2**31
         if job.configuration.strength == "schema" and self.schema_form:
             schema = served_schema(level, vocabulary)
             body["response_format"] = _response_format(self.schema_form, schema)
         return body
 
     def _answered(self, body: dict[str, Any]) -> Fields:
-        started, error = time.perf_counter(), None
-        try:
-            reply = self.client.complete(body)
-        except Unanswerable as problem:
-            error = str(problem)
-            reply = Reply("", time.perf_counter() - started, "error", tokens=0)
+        reply = self._reply(body, stream=False)
         return {
             "output": reply.text,
             "tokens": reply.tokens,
             "forward_passes": None,
             "time_s": round(reply.seconds, 4),
             "finish_reason": reply.finish_reason,
-            "error": error or reply.problem,
+            "error": reply.problem,
             "prompt_tokens": reply.prompt_tokens,
             "attempts": reply.attempts,
             **({"logprobs": as_json(reply.choices)} if reply.choices else {}),
         }
 
-    def _streamed(self, body: dict[str, Any]) -> Reply:
-        """The answer, as a stream as long as the server has not refused one."""
+    def _reply(self, body: dict[str, Any], *, stream: bool) -> Reply:
+        """The answer, empty for a question that is too long; a server may refuse to `stream`."""
+        started = time.perf_counter()
         try:
-            return self.client.complete(body, stream=self.streams)
+            return self.client.complete(body, stream=stream)
+        except Unanswerable as problem:
+            seconds = time.perf_counter() - started
+            return Reply("", seconds, "error", tokens=0, problem=str(problem))
         except Rejected as problem:
-            if not self.streams or problem.status not in (400, 422):
+            if not stream or problem.status not in (400, 422):
                 raise
         self.streams = False
-        return self.client.complete(body)
+        return self._reply(body, stream=False)
 
-    def _body(self, messages: list[dict[str, str]], max_tokens: int) -> dict[str, Any]:
-        return {
-            "model": self.endpoint.model,
-            "messages": messages,
-            "temperature": 0,
-            "seed": SERVER_SEED,
-            "max_tokens": max_tokens,
-        }
+    def _body(self, messages: list[dict[str, str]], most: int) -> dict[str, Any]:
+        greedy = {"temperature": 0, "seed": SERVER_SEED, "max_tokens": most}
+        return {"model": self.endpoint.model, "messages": messages, **greedy}
 
     def _greeting(self, max_tokens: int, **fields: Any) -> dict[str, Any]:
         return {**self._body([{"role": "user", "content": GREETING}], max_tokens), **fields}
@@ -157,11 +146,6 @@ class EndpointSource:
         problem = "the server does not hold answers to a JSON schema (response_format)"
         way = "leave out the configurations with +schema"
         raise PlannerError(f"{self.endpoint.root}: {problem}; {way}")
-
-    def _tells(self) -> bool:
-        """Whether the server gives log-probabilities that can be believed."""
-        found = self._tried(self._greeting(4, **LOGPROBS))
-        return found is not None and found.choices is not None
 
     def _tried(self, body: dict[str, Any]) -> Reply | None:
         """The answer to a request that the server may not know, None: some say HTTP 500."""

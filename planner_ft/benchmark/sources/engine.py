@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner_ft.benchmark.samples import Sample
-from planner_ft.benchmark.sources import Fields, timed
+from planner_ft.benchmark.sources import Fields, Timed
 from planner_ft.candidates.loading import resolve_device
 from planner_ft.confidence.calibration import plan_confidence
 from planner_ft.confidence.parts import as_json, known
@@ -46,7 +46,9 @@ class EngineSource:
             self.engine.method(self.level, job.configuration)
         # The size of batches is judged by a peak of its own, which begins here.
         self.load_peak = peak_memory(self.device)
-        self.batch = new_batch_size(plan.settings.batch_size, plan.device)
+        largest = LARGEST if plan.device.startswith("cuda") else FIRST
+        asked = plan.settings.batch_size
+        self.batch = BatchSize(asked, asked) if asked else BatchSize(FIRST, largest)
 
     def answers(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
         """Batch by batch, longest prompts first."""
@@ -61,12 +63,6 @@ class EngineSource:
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
             text = self.engine.text(answer)
             choices = known(self.engine.choices(answer), text)
-            extra: dict[str, Any] = {
-                "alternatives": answer.alternatives,
-                "working": self.engine.working(answer),
-                "logprobs": as_json(choices),
-                "confidence": plan_confidence(calibration, text, choices),
-            }
             fields = {
                 "output": text,
                 "tokens": len(answer.ids),
@@ -77,30 +73,28 @@ class EngineSource:
                 "prompt_tokens": lengths[index],
                 "batch": size,
             }
+            extra: Fields = {"alternatives": answer.alternatives}
+            extra |= {"working": self.engine.working(answer), "logprobs": as_json(choices)}
+            extra["confidence"] = plan_confidence(calibration, text, choices)
             more = {name: value for name, value in extra.items() if value not in (None, 0, "")}
             yield index, {**fields, **more}
 
-    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Fields]]:
+    def latencies(self, job: Job, samples: Sequence[Sample]) -> Iterator[tuple[int, Timed]]:
         queries = self._queries(job, samples)
         for index, one in self.engine.latencies(queries, job.configuration, sampling=job.sampling):
-            yield index, timed(one.seconds, len(one.ids), one.forward_passes, one.first_token_s)
+            yield index, (one.seconds, len(one.ids), one.forward_passes, one.first_token_s)
 
     def costs(self) -> dict[str, Any]:
         """Seconds to load, the mean of an adapter switch, the most memory since loading."""
-        return {
-            "load_s": round(self.load_seconds, 3),
-            "adapter_swap_s": self._swap_seconds(),
-            "peak_memory_bytes": max(self.load_peak, peak_memory(self.device)),
-        }
-
-    def _swap_seconds(self) -> float | None:
-        if self.level not in self.engine.adapters:
-            return None
-        began = time.perf_counter()
-        for adapter in (True, False) * SWAPS:
-            with self.engine.configured(self.level, Configuration(adapter)):
-                pass
-        return round((time.perf_counter() - began) / (2 * SWAPS), 6)
+        swap, began = None, time.perf_counter()
+        if self.level in self.engine.adapters:
+            for adapter in (True, False) * SWAPS:
+                with self.engine.configured(self.level, Configuration(adapter)):
+                    pass
+            swap = round((time.perf_counter() - began) / (2 * SWAPS), 6)
+        peak = max(self.load_peak, peak_memory(self.device))
+        loading = round(self.load_seconds, 3)
+        return {"load_s": loading, "adapter_swap_s": swap, "peak_memory_bytes": peak}
 
     def release(self) -> None:
         self.engine.release()
@@ -170,10 +164,3 @@ def is_out_of_memory(error: BaseException) -> bool:
     if found and torch.cuda.is_available():
         torch.cuda.empty_cache()
     return found
-
-
-def new_batch_size(asked: int | None, device: str) -> BatchSize:
-    """The size that was asked for, or one that finds itself."""
-    if asked is not None:
-        return BatchSize(asked, asked)
-    return BatchSize(FIRST, LARGEST if device.startswith("cuda") else FIRST)
