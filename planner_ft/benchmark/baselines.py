@@ -44,12 +44,10 @@ class Baselines:
 
 def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
     """Both baselines for the samples of `data`, unless that is the split they are made from."""
-    training, problem = _find_training(data, vocabulary)
-    if training is None:
-        return Baselines(notes=(f"No baselines: {problem}.",))
-    if training.sha256 == data.sha256:
-        note = f"{data.path} is the training split itself, and whatever was trained on it has seen"
-        return Baselines(notes=(f"No baselines: {note} these samples.",))
+    try:
+        training = _find_training(data, vocabulary)
+    except PlannerError as error:
+        return Baselines(notes=(f"No baselines: {error}.",))
     size = len(training.samples)
     notes = [f"Baselines need no model and are made from {training.path} ({size} samples)."]
     ours, theirs = (
@@ -60,26 +58,30 @@ def make_baselines(data: BenchData, vocabulary: Vocabulary) -> Baselines:
     if known := sum(input_digest(text) in seen for text in ours):
         stand = f"{known} of {len(ours)} test inputs stand in the training split, too"
         notes.append(f"{stand}: figures of whatever was trained on it are too high.")
-    nearest: dict[str, Line] = {}
-    for sample, (place, similarity) in zip(data.samples, Index(theirs).nearest(ours), strict=True):
+    similar: dict[str, Line] = {}
+    for sample, (place, similarity) in zip(data.samples, nearest(ours, theirs), strict=True):
         neighbour = training.samples[place]
         found = {"neighbour": neighbour.id, "similarity": round(similarity, 4)}
-        nearest[sample.id] = _line(sample, neighbour.expected) | found
-    answers = {MAJORITY: _majority(data, training), NEAREST: nearest}
+        similar[sample.id] = _line(sample, neighbour.expected) | found
+    answers = {MAJORITY: _majority(data, training), NEAREST: similar}
     return Baselines(answers, training.summary(), tuple(notes))
 
 
-def _find_training(data: BenchData, vocabulary: Vocabulary) -> tuple[BenchData | None, str]:
-    """The training split beside the data, in data/LEVEL, or the package's; else None and why."""
+def _find_training(data: BenchData, vocabulary: Vocabulary) -> BenchData:
+    """The training split beside the data, in data/LEVEL, or the package's. Raises PlannerError."""
     command = f"`plannerft gen-data --level {data.level}` writes data/{data.level}/{TRAIN}"
     problem = f"no training split of the {data.level} level; {command}"
-    for path in _places(data, vocabulary):
-        if path.is_file():
-            try:
-                return load_bench_data(path, data.level, vocabulary), ""
-            except PlannerError as error:
-                problem = f"the training split cannot be used ({error})"
-    return None, problem
+    for path in filter(Path.is_file, _places(data, vocabulary)):
+        try:
+            found = load_bench_data(path, data.level, vocabulary)
+        except PlannerError as error:
+            problem = f"the training split cannot be used ({error})"
+            continue
+        if found.sha256 != data.sha256:
+            return found
+        itself = f"{data.path} is the training split itself"
+        raise PlannerError(f"{itself}, and whatever was trained on it has seen these samples")
+    raise PlannerError(problem)
 
 
 def _places(data: BenchData, vocabulary: Vocabulary) -> Iterator[Path]:
@@ -132,28 +134,25 @@ def _line(sample: Sample, plan: Plan) -> Line:
     return {"id": sample.id, "output": compact_json(plan)}
 
 
-class Index:
-    """Texts by TF-IDF over words, pairs and pieces of words (Salton and Buckley 1988)."""
+def nearest(texts: Sequence[str], among: Sequence[str]) -> list[tuple[int, float]]:
+    """For each text the index of the most similar one, the first of equals, and the cosine, by
+    TF-IDF over words, pairs and pieces of words (Salton and Buckley 1988).
+    """
+    from sklearn.feature_extraction.text import TfidfVectorizer
 
-    def __init__(self, texts: Sequence[str]) -> None:
-        from sklearn.feature_extraction.text import TfidfVectorizer
-
-        self.vectorizer = TfidfVectorizer(analyzer=_features)
-        self.matrix = self.vectorizer.fit_transform(texts)
-
-    def nearest(self, texts: Sequence[str]) -> list[tuple[int, float]]:
-        """For each text the index of the most similar one, the first of equals, and the cosine."""
-        queries = self.vectorizer.transform(texts)
-        found: list[tuple[int, float]] = []
-        for start in range(0, len(texts), ROWS):
-            # Rounded, because equal texts may differ in their last bit.
-            similarity = (queries[start : start + ROWS] @ self.matrix.T).toarray().round(9)
-            best = similarity.argmax(1).tolist()
-            found += zip(best, similarity.max(1).tolist(), strict=True)
-        return found
+    vectorizer = TfidfVectorizer(analyzer=features)
+    matrix = vectorizer.fit_transform(among)
+    queries, found = vectorizer.transform(texts), list[tuple[int, float]]()
+    for start in range(0, len(texts), ROWS):
+        # Rounded, because equal texts may differ in their last bit.
+        similarity = (queries[start : start + ROWS] @ matrix.T).toarray().round(9)
+        best = similarity.argmax(1).tolist()
+        found += zip(best, similarity.max(1).tolist(), strict=True)
+    return found
 
 
-def _features(text: str) -> list[str]:
+def features(text: str) -> list[str]:
+    """The words of a text, their pieces, and pairs of them."""
     words = TOKEN.findall(text.lower())
     pairs = (f"{one} {other}" for one, other in itertools.pairwise(words))
     return [*itertools.chain.from_iterable(map(_pieces, words)), *pairs]

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.baselines import Index, majority_plan, make_baselines
+from planner_ft.benchmark.baselines import features, majority_plan, make_baselines, nearest
 from planner_ft.benchmark.compare import run_rows
 from planner_ft.benchmark.folder import read_results, write_results
 from planner_ft.benchmark.results import Results
@@ -59,20 +59,20 @@ def answers(lines: Any) -> dict[str, Any]:
 
 
 def test_weights_and_similarity_by_hand() -> None:
-    index = Index(["a b", "a c", "d"])
+    texts = ["a b", "a c", "d"]
     known = {"a", "<a>", "b", "<b>", "a b", "c", "<c>", "a c", "d", "<d>"}
-    assert set(index.vectorizer.vocabulary_) == known
+    assert {feature for text in texts for feature in features(text)} == known
     common, rare = math.log(4 / 3) + 1, math.log(4 / 2) + 1
     # Against "a": one of "a b"'s three words or pairs and its characters are known.
     length = math.sqrt(2 * common**2 + 3 * rare**2)
-    (place, similarity), (nothing, none) = index.nearest(["a", "x"])
+    (place, similarity), (nothing, none) = nearest(["a", "x"], texts)
     assert (place, similarity) == (0, pytest.approx(math.sqrt(2) * common / length, abs=1e-8))
     assert (nothing, none) == (0, 0.0)
 
 
 def test_the_nearest_of_many_is_found_and_the_first_of_equals() -> None:
     texts = [f"survey field {index} at noon" for index in range(600)] + ["survey field 5 at noon"]
-    assert Index(texts).nearest(["survey field 555 at noon", "Survey field 5 at NOON"]) == [
+    assert nearest(["survey field 555 at noon", "Survey field 5 at NOON"], texts) == [
         (555, pytest.approx(1)),
         (5, pytest.approx(1)),
     ]
