@@ -30,8 +30,6 @@ from planner_ft.support.templates import text_template
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["DEFAULT_METRICS", "CompareSettings", "compare_runs", "print_report", "render_report"]
-
 CSV = (
     *("first", "second", "metric", "n", "families", "first_value", "second_value", "difference"),
     *("low", "high", "p", "p_mcnemar", "p_adjusted", "verdict"),
@@ -55,74 +53,63 @@ class RunRow:
 
 
 @dataclass(frozen=True)
-class CompareSettings:
-    """`metrics` are names of results.json. `against` names the row that the others are compared
-    with, None takes the first one; `same` compares each row with that of the same name in the first
-    run instead. `common` allows different data files. Raises PlannerError.
+class Report:
+    """All comparisons of one table, notes for the reader, and what it is made of: level, runs and
+    arguments of `compare_runs`.
     """
 
-    runs: tuple[Path, ...]
-    metrics: tuple[str, ...] = DEFAULT_METRICS
-    against: str | None = None
-    same: bool = False
-    common: bool = False
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        known = [metric.name for metric in CATALOGUE]
-        for name in self.metrics:
-            if name not in known:
-                raise PlannerError(f"--metric {name}: unknown; there are {', '.join(known)}")
-
-    @property
-    def asked(self) -> list[Metric]:
-        return [METRIC[name] for name in dict.fromkeys(self.metrics)]
-
-
-@dataclass(frozen=True)
-class Report:
-    """All comparisons of one table, with notes for the reader."""
-
-    settings: CompareSettings
-    level: str
-    data: tuple[dict[str, Any], ...]
     comparisons: tuple[Comparison, ...]
     notes: tuple[str, ...]
+    seed: int
+    made_of: dict[str, Any]
 
     def to_json(self) -> dict[str, Any]:
-        settings = self.settings
-        runs = zip(settings.runs, self.data, strict=True)
-        method = {"confidence": CONFIDENCE, "resamples": RESAMPLES, "seed": settings.seed}
+        method = {"confidence": CONFIDENCE, "resamples": RESAMPLES, "seed": self.seed}
         return {
-            "level": self.level,
-            "runs": [{"path": str(path), "data": data} for path, data in runs],
-            **{name: getattr(settings, name) for name in ("against", "same", "common")},
+            **self.made_of,
             "method": {**method, "adjustment": "holm", "margin": MARGIN},
             "comparisons": [comparison.to_json() for comparison in self.comparisons],
             "notes": list(self.notes),
         }
 
 
-def compare_runs(settings: CompareSettings) -> Report:
-    """Compare rows of runs. Raises PlannerError where they cannot be compared."""
-    runs = {path: read_results(path)[0] for path in settings.runs}
-    _check_same(runs, common=settings.common)
-    rows = [one for path, results in runs.items() for one in run_rows(path, results)]
-    pairs = _pairs(_named_apart(rows, list(runs)), settings)
+def compare_runs(
+    folders: Sequence[Path],
+    metrics: Sequence[str] | None = None,
+    *,
+    against: str | None = None,
+    same: bool = False,
+    common: bool = False,
+    seed: int = 0,
+) -> Report:
+    """Compare rows of runs by metrics of results.json, else by DEFAULT_METRICS. `against` names the
+    row that the others are compared with, None takes the first one; `same` compares each row with
+    that of the same name in the first run instead. `common` allows different data files. Raises
+    PlannerError where they cannot be compared.
+    """
+    metrics, known = metrics or DEFAULT_METRICS, [metric.name for metric in CATALOGUE]
+    for name in (name for name in metrics if name not in known):
+        raise PlannerError(f"--metric {name}: unknown; there are {', '.join(known)}")
+    asked = [METRIC[name] for name in dict.fromkeys(metrics)]
+    runs = {path: read_results(path)[0] for path in folders}
+    _check_same(runs, common=common)
+    rows = _named_apart([one for run in runs.items() for one in run_rows(*run)], list(runs))
+    pairs = _same(rows, folders[0]) if same else _pairs(rows, folders[0], against)
     found = []
     for first, second in pairs:
         if not first.scores.keys() & second.scores.keys():
             way = "compare runs of the same data"
             raise PlannerError(f"{first.name} and {second.name} have no sample in common; {way}")
-        for metric in settings.asked:
-            one = paired(metric, first.scores, second.scores, settings.seed)
+        for metric in asked:
+            one = paired(metric, first.scores, second.scores, seed)
             found.append((first.name, second.name, one))
-    data = tuple(runs[path].data for path in settings.runs)
-    files = len({str(one.get("sha256")) for one in data})
-    about = {"files": files, "pairs": pairs, "metrics": settings.asked}
+    files = len({str(run.data.get("sha256")) for run in runs.values()})
     named = {one.name: one for pair in pairs for one in pair}
-    lacks = tuple(_said("lacks", rows=named.values(), **about))
-    return Report(settings, runs[settings.runs[0]].level, data, tuple(adjusted(found)), lacks)
+    lacks = _said("lacks", rows=named.values(), files=files, pairs=pairs, metrics=asked)
+    data = [{"path": str(path), "data": runs[path].data} for path in folders]
+    how = {"against": against, "same": same, "common": common}
+    made_of = {"level": runs[folders[0]].level, "runs": data, **how}
+    return Report(tuple(adjusted(found)), tuple(lacks), seed, made_of)
 
 
 def run_rows(path: Path, results: Results) -> list[RunRow]:
@@ -163,32 +150,29 @@ def _check_same(runs: dict[Path, Results], *, common: bool) -> None:
             )
 
 
-def _pairs(rows: Sequence[RunRow], settings: CompareSettings) -> list[tuple[RunRow, RunRow]]:
-    first = settings.runs[0]
-    if settings.same:
-        former = {one.system: one for one in rows if one.run == first}
-        others = [one for one in rows if one.run != first and not one.is_baseline]
-        pairs = [(former[one.system], one) for one in others if one.system in former]
-        if not pairs:
-            problem = f"no row of the other runs has the name of one in {first}"
-            raise PlannerError(f"--same: {problem} ({', '.join(former)}); leave out --same")
-        return pairs
-    reference = rows[0] if settings.against is None else _named(rows, settings.against)
-    if len(rows) == 1:
-        problem = f"holds one row, {rows[0].name}; name a second run to compare it with"
-        raise PlannerError(f"{first}: {problem}")
-    return [(reference, one) for one in rows if one is not reference]
+def _same(rows: Sequence[RunRow], first: Path) -> list[tuple[RunRow, RunRow]]:
+    """The rows of the other runs with those of the same name in the first one."""
+    former = {one.system: one for one in rows if one.run == first}
+    others = [one for one in rows if one.run != first and not one.is_baseline]
+    pairs = [(former[one.system], one) for one in others if one.system in former]
+    if not pairs:
+        problem = f"no row of the other runs has the name of one in {first}"
+        raise PlannerError(f"--same: {problem} ({', '.join(former)}); leave out --same")
+    return pairs
 
 
-def _named(rows: Sequence[RunRow], text: str) -> RunRow:
-    """The row of that name; a part of the name is enough where it fits one row alone."""
-    exact = [one for one in rows if one.name == text]
-    matching = exact or [one for one in rows if text in one.name]
+def _pairs(rows: Sequence[RunRow], first: Path, name: str | None) -> list[tuple[RunRow, RunRow]]:
+    """All rows with that of the name, of which a part is enough where it fits one row alone."""
+    matching = [one for one in rows if one.name == name] if name is not None else [rows[0]]
+    matching = matching or [one for one in rows if str(name) in one.name]
     if len(matching) != 1:
         problem = "is the name of several rows" if matching else "is no row"
         names = ", ".join(one.name for one in rows)
-        raise PlannerError(f"--against {text}: {problem}; there are {names}")
-    return matching[0]
+        raise PlannerError(f"--against {name}: {problem}; there are {names}")
+    if len(rows) == 1:
+        problem = f"holds one row, {rows[0].name}; name a second run to compare it with"
+        raise PlannerError(f"{first}: {problem}")
+    return [(matching[0], one) for one in rows if one is not matching[0]]
 
 
 def _said(part: str, **about: Any) -> list[str]:
@@ -203,8 +187,8 @@ def render_report(report: Report) -> dict[str, str]:
     lines: list[list[Any]] = [list(CSV)]
     for comparison in report.comparisons:
         values = comparison.to_json()
-        difference = values.pop("difference")
-        values |= {"difference": difference.pop("value"), **difference}
+        values |= values["difference"]
+        values["difference"] = values["value"]
         lines.append([values[name] for name in CSV])
     rows = [one for table in tables for one in (row(table.title, kind="section"), *table.rows)]
     together = replace(tables[0], title="", rows=tuple(rows))
@@ -229,7 +213,7 @@ def notes(report: Report) -> list[str]:
     """What a reader must know to read the comparison rightly."""
     count = sum(comparison.p_adjusted is not None for comparison in report.comparisons)
     families = max((comparison.paired.families for comparison in report.comparisons), default=0)
-    how = {"count": count, "families": families, "seed": report.settings.seed}
+    how = {"count": count, "families": families, "seed": report.seed}
     return [*_said("how", explained=EXPLAINED, **how), *report.notes]
 
 

@@ -89,12 +89,11 @@ def compare(o: Options) -> None:
     if o.same and o.against is not None:
         kinds = f"--same compares rows of the same name and --against {o.against} one row with all"
         raise PlannerError(f"{kinds}: give one of them")
-    metrics = tuple(o.metric or compare.DEFAULT_METRICS)
-    how = (o.against, o.same, o.common, o.seed)
+    how = o.take("against", "same", "common", "seed")
     with alone(o.out, "--out", "a comparison"):
         if o.out is not None:
             check_folder(o.out, ("comparison.json",), AGAIN, overwrite=o.overwrite)
-        report = compare.compare_runs(compare.CompareSettings(tuple(o.runs), metrics, *how))
+        report = compare.compare_runs(o.runs, o.metric, **how)
         if o.out is not None:
             for name, text in compare.render_report(report).items():
                 write_text(o.out / name, text)

@@ -20,7 +20,7 @@ from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.curve import SHOWN, Point
 from planner_ft.report.charts import WORDS, Chart, cell
 from planner_ft.support.files import atomic_writer
-from planner_ft.support.tables import NOTHING, Bounds, Cell, Table, TableRow
+from planner_ft.support.tables import NOTHING, Bounds, Cell, Table, TableRow, printable
 
 WIDE, NARROW = 860, 340
 """Widths in pixels, which are points here: letters keep their size on a phone."""
@@ -97,8 +97,7 @@ def _saved(figure: Any, suffix: str, options: dict[str, Any]) -> bytes:
 
 def fitted(label: str, longest: int = 44) -> str:
     """A label that leaves room for the figure, on one line."""
-    shown = "".join(letter if letter.isprintable() else " " for letter in label)
-    shown = " ".join(shown.split())
+    shown = printable(label)
     return shown if len(shown) <= longest else f"{shown[: longest - 1]}…"
 
 
