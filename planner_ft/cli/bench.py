@@ -189,7 +189,7 @@ def _run_suite(o: Options) -> None:
     """Run a suite, and exit with 1 when a candidate could not be measured."""
     from planner_ft.benchmark.definitions import load_suite
     from planner_ft.benchmark.layout import print_warnings
-    from planner_ft.benchmark.suite.run import run_suite
+    from planner_ft.benchmark.suite import run_suite
 
     suite, folder = load_suite(o.suite), o.out or Path("eval/runs") / o.suite.stem
     changes = o.take("device", "seed", "batch_size") | o.given("limit", "latency_samples")

@@ -12,8 +12,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show, terminal
 
 if TYPE_CHECKING:
-    from planner_ft.benchmark.field.cases import Case
-    from planner_ft.benchmark.field.checks import Outcome
+    from planner_ft.benchmark.field.cases import Case, Outcome
     from planner_ft.planning import Planner
 
 FLAGS = ("candidates", "configurations", "vocabulary", "quantization", "limit")
@@ -63,7 +62,7 @@ class _Plan:
         self.vehicle = load_vehicle(None, planner.vocabulary)
 
     def __call__(self, case: Case) -> Outcome:
-        from planner_ft.benchmark.field.checks import Outcome
+        from planner_ft.benchmark.field.cases import Outcome
         from planner_ft.document import build
         from planner_ft.support.geodesy import Origin
 

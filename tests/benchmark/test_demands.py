@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.field.cases import DEMANDS, Case, load_demands
-from planner_ft.benchmark.field.checks import Outcome
+from planner_ft.benchmark.field.cases import DEMANDS, Case, Outcome, load_demands
 from planner_ft.benchmark.field.run import Demands, Row, judge
 from planner_ft.cli.app import app
 from planner_ft.support.errors import PlannerError

@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from planner_ft.benchmark.field.cases import load_cases
-from planner_ft.benchmark.field.checks import Outcome, passes
+from planner_ft.benchmark.field.cases import Outcome, load_cases, passes
 from planner_ft.cli.app import app
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_jsonl

@@ -20,7 +20,7 @@ from typer.testing import CliRunner
 
 from planner_ft.benchmark import units
 from planner_ft.benchmark.definitions import load_suite
-from planner_ft.benchmark.suite.run import combine, opened, run_suite
+from planner_ft.benchmark.suite import combine, opened, run_suite
 from planner_ft.benchmark.units import Process, State, Units
 from planner_ft.cli.bench import bench
 from planner_ft.support.alone import alone

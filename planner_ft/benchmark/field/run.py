@@ -10,20 +10,12 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.field.cases import Case, load_cases, load_demands
-from planner_ft.benchmark.field.checks import Outcome, passes
+from planner_ft.benchmark.field.cases import Case, Outcome, load_cases, load_demands, passes
 from planner_ft.benchmark.folder import PLANS, RESULTS, SCORES, RecordLog, check_folder, clear
 from planner_ft.benchmark.statistics import Estimate, clustered_rate, wilson
 from planner_ft.planning import Planner
 from planner_ft.planning.settings import PlanSettings
-from planner_ft.support.files import (
-    compact_json,
-    sha256_file,
-    sha256_text,
-    write_json,
-    write_jsonl,
-    write_text,
-)
+from planner_ft.support import files
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, markdown_table, row
 from planner_ft.support.terminal import Report
@@ -201,30 +193,29 @@ def _of_agents(outcome: Outcome) -> Outcome:
 
 def run_cases(
     bench: Field | Demands,
-    files: Sequence[Path],
+    cases_in: Sequence[Path],
     out: Path,
     vocabulary: Vocabulary,
     agents: Sequence[PlanSettings],
     new_plan: Callable[[Planner, bool], Plan],
     progress: Report,
-    *,
     limit: int | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
+    **rerun: bool,
 ) -> Table:
     """Run the cases of files with every pair of agents. Plans are written into `out` as they are
-    made, with `resume` those that are there are not made again; from them the tables and, last,
-    results.json. `new_plan` makes what plans a case, for demands with open places taken to be
-    somewhere. Returns the table. Raises PlannerError.
+    made, with `resume` those that are there are not made again (`rerun`: resume, overwrite); from
+    them the tables and, last, results.json. `new_plan` makes what plans a case, for demands with
+    open places taken to be somewhere. Returns the table. Raises PlannerError.
     """
-    cases = bench.load(files, vocabulary)[:limit]
+    cases = bench.load(cases_in, vocabulary)[:limit]
     planners = [Planner(settings) for settings in agents]
-    check_folder(out, bench.files, resume=resume, overwrite=overwrite)
-    if overwrite:
+    check_folder(out, bench.files, **rerun)
+    if rerun.get("overwrite"):
         clear(out, bench.files)
     rows = [_row(planner) for planner in planners]
-    data = [bench.kind, vocabulary.sha256, *map(sha256_file, files)]
-    keys = {one.name: sha256_text(compact_json([one.agents, *data]))[:20] for one in rows}
+    data = [bench.kind, vocabulary.sha256, *map(files.sha256_file, cases_in)]
+    made_with = {one.name: files.compact_json([one.agents, *data]) for one in rows}
+    keys = {name: files.sha256_text(text)[:20] for name, text in made_with.items()}
     with RecordLog(out / PLANS) as log:
         log.refuse_others({name: {key} for name, key in keys.items()})
         for index, (planner, one) in enumerate(zip(planners, tuple(rows), strict=True)):
@@ -242,14 +233,15 @@ def run_cases(
         bench.kind,
         seed=None,
         configuration={"limit": limit, "vocabulary": vocabulary.named},
-        inputs={str(path): path for path in files},
+        inputs={str(path): path for path in cases_in},
         agents={one.name: one.agents for one in rows},
     )
     table = bench.table(rows)
     if SCORES in bench.files:
-        write_jsonl(out / SCORES, [line for one in rows for line in bench.lines(one)])
-    write_text(out / TABLE, markdown_table(table) + bench.below(rows))
-    write_json(out / RESULTS, {"rows": [bench.record(one) for one in rows], "manifest": manifest})
+        files.write_jsonl(out / SCORES, [line for one in rows for line in bench.lines(one)])
+    files.write_text(out / TABLE, markdown_table(table) + bench.below(rows))
+    found = {"rows": [bench.record(one) for one in rows], "manifest": manifest}
+    files.write_json(out / RESULTS, found)
     return table
 
 

@@ -5,27 +5,37 @@ own; one that fails is named, the others go on. All answers are scored again for
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
+from planner_ft.benchmark.catalogue import METRIC, METRICS
 from planner_ft.benchmark.definitions import Part, Suite
 from planner_ft.benchmark.folder import RunRecord, measured_in, read_run
+from planner_ft.benchmark.layout import lines
 from planner_ft.benchmark.plan import Plan, make_plan
-from planner_ft.benchmark.results import Measured, Results, assemble
+from planner_ft.benchmark.results import Measured, Results, assemble, heading
 from planner_ft.benchmark.samples import BenchData, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
-from planner_ft.benchmark.suite.tables import PartResults, write_suite
 from planner_ft.benchmark.units import UNIT, State, Unit, Units, arguments
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, write_json
+from planner_ft.support.files import read_json, read_text, write_json, write_text
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.tables import Table, TableRow, csv_text, latex_table, markdown_table, row
 from planner_ft.vocabulary import load_vocabulary
 
 SUITE, LOG = "suite.json", "log.txt"
+NAMED = ("label", "candidate", "configuration")
+FIGURES = ("f1", "whole_plan", "latency_s")  # the metrics of the overview
+GROUPS = {False: "Published-size splits", True: "Reported apart: data beyond the published size"}
+HOW = (
+    "In brackets 95 % intervals. Every metric, published figures and notes: table.md in the"
+    " folder of each data set."
+)
 
 
 @dataclass(frozen=True)
@@ -89,18 +99,14 @@ def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Run]:
             raise PlannerError(f"{suite.path}: two candidates are named {candidate.slug}; {way}")
         candidates[candidate.slug] = candidate
     units = []
-    for slug, candidate in candidates.items():
-        for part, data in parts:
-            adapter = suite.adapters.get(candidate.name, {}).get(part.settings.level)
-            where, own = out / part.name / slug, (str(adapter),) if adapter else ()
-            settings = replace(
-                part.settings, candidates=(candidate.given_as,), adapters=own, out=where
-            )
-            each = len(data.samples) + settings.latency_samples
-            known = f"{part.name}, {candidate.name}", where, each * len(settings.configurations)
-            run: dict[str, Any] = {"part": part, "candidate": candidate, "data": data}
-            run |= {"settings": settings, "weight": candidate.parameters or 1}
-            units.append(Run(*known, **run))
+    for (slug, candidate), (part, data) in itertools.product(candidates.items(), parts):
+        adapter = suite.adapters.get(candidate.name, {}).get(part.settings.level)
+        where, own = out / part.name / slug, (str(adapter),) if adapter else ()
+        settings = replace(part.settings, candidates=(candidate.given_as,), adapters=own, out=where)
+        each = len(data.samples) + settings.latency_samples
+        known = f"{part.name}, {candidate.name}", where, each * len(settings.configurations)
+        run: dict[str, Any] = {"part": part, "candidate": candidate, "data": data}
+        units.append(Run(*known, candidate.parameters or 1, settings=settings, **run))
     return units
 
 
@@ -129,6 +135,23 @@ def opened(
             raise PlannerError(f"{unit.data.path}: changed since {out} was begun; {way}")
     write_json(path, {"title": suite.title, "suite": str(suite.path), "data": data})
     return units
+
+
+@dataclass(frozen=True)
+class PartResults:
+    """One data set of a suite with everything that was measured on it; `results` may have no rows.
+    `failed` are candidates in configurations that could not be measured: candidate, label,
+    configuration, reason.
+    """
+
+    part: Part
+    results: Results
+    failed: tuple[dict[str, str], ...]
+
+    def to_json(self) -> dict[str, Any]:
+        named = {"name": self.part.name, "apart": self.part.apart, "level": self.results.level}
+        rows = [one.to_json() for one in self.results.rows]
+        return {**named, "data": self.results.data, "rows": rows, "failed": list(self.failed)}
 
 
 def run_suite(
@@ -160,17 +183,13 @@ def combine(
     """The results of every part, and one manifest: all files, what units ran with and took."""
     begun = [unit for unit in units if (unit.folder / folder.RUN).is_file()]
     records = {unit.name: read_run(unit.folder) for unit in begun}
-    ran = {
-        unit.name: {
-            "arguments": arguments((unit.plan or unit).settings),
-            "seconds": session.seconds.get(unit.name),
-            "finished_before": unit.name in session.finished,
-            "jobs": records[unit.name].jobs if unit.name in records else {},
-            "costs": records[unit.name].costs if unit.name in records else {},
-        }
-        for unit in units
-    }
-    settings = units[0].settings
+    ran, settings = dict[str, Any](), units[0].settings
+    for name, unit in ((unit.name, unit) for unit in units):
+        given = arguments((unit.plan or unit).settings)
+        times = {"seconds": session.seconds.get(name), "finished_before": name in session.finished}
+        record = records.get(name)
+        made = {"jobs": record.jobs if record else {}, "costs": record.costs if record else {}}
+        ran[name] = {"arguments": given, **times, **made}
     manifest = build_manifest(
         "suite",
         seed=settings.seed,
@@ -219,3 +238,81 @@ def _part(
         vocabulary = load_vocabulary(units[0].settings.vocabulary)
         results = assemble(data, vocabulary, found, seed=manifest["seed"], manifest=own)
     return PartResults(part, results, tuple(failed))
+
+
+def write_suite(
+    out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]
+) -> None:
+    """Write PART/ and the overview into `out`, results.json last: then all is there."""
+    for one in parts:
+        where = out / one.part.name
+        where.mkdir(parents=True, exist_ok=True)
+        folder.write_results(where, one.results, one.to_json())
+        for name in folder.TABLES:
+            shown = read_text(where / name) if one.results.rows else ""
+            write_text(where / name, shown + _not_measured(name, one))
+    ordered = sorted(parts, key=lambda one: one.part.apart)
+    table, failed = _overview(ordered), _failed(ordered)
+    texts = [f"# {title}\n", markdown_table(table)]
+    texts += ["## Not measured\n", markdown_table(failed)] if failed.rows else []
+    write_text(out / "table.md", "\n".join([*texts, HOW]) + "\n")
+    write_text(out / "table.csv", csv_text(_csv(parts)))
+    absent = "".join(_not_measured("table.tex", one) for one in ordered)
+    write_text(out / "table.tex", latex_table(table) + absent)
+    overview = {"title": title, "parts": [one.to_json() for one in parts], "manifest": manifest}
+    write_json(out / folder.RESULTS, overview)
+
+
+def _overview(parts: Sequence[PartResults]) -> Table:
+    """F1, whole plans and latency of everything in one table, a section per data set."""
+    rows: list[TableRow] = []
+    for one in parts:
+        named = f"{one.part.name}: {one.results.level} level, n = {one.results.data['n']}"
+        rows.append(row(f"{named} ({GROUPS[one.part.apart]})", kind="section"))
+        for found in lines(one.results, beside=False):
+            cells = [replace(cell, mark="") for cell in found.cells(FIGURES)]
+            rows.append(row(found.system.label, found.configuration, *cells, kind=found.kind))
+        for entry in one.failed:
+            cells_of = ("not measured", *[""] * (len(FIGURES) - 1))
+            rows.append(row(entry["label"], heading(entry["configuration"]), *cells_of))
+    heads = ("Configuration", *(METRIC[name].title for name in FIGURES))
+    return Table("Model", heads, rows, texts=1)
+
+
+def _failed(parts: Sequence[PartResults]) -> Table:
+    rows = [
+        row(one.part.name, entry["label"], heading(entry["configuration"]), entry["reason"])
+        for one in parts
+        for entry in one.failed
+    ]
+    return Table("Data", ("Model", "Configuration", "Why"), rows, texts=3)
+
+
+def _not_measured(name: str, one: PartResults) -> str:
+    """The lines of a table of one data set about the systems that it lacks."""
+    if not one.failed:
+        return ""
+    if name == "table.md":
+        return f"\nNot measured:\n\n{markdown_table(_failed([one]))}"
+    rows = [[cell.plain() for cell in line.cells] for line in _failed([one]).rows]
+    if name == "table.tex":
+        return "".join(f"% not measured: {label}, {name}: {why}\n" for label, name, why in rows)
+    n = one.results.data["n"]
+    return csv_text([(label, f"not measured: {why}", name, n) for label, name, why in rows])
+
+
+def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
+    """A line per data set, candidate and configuration with every metric, or why it failed."""
+    heads = ["data", "level", "apart", "n", "model", "candidate", "configuration", "status"]
+    figures = [f"{name}{end}" for name in METRICS for end in ("", "_low", "_high")]
+    yield [*heads, "reason", *figures]
+    for one in parts:
+        common = [one.part.name, one.results.level, int(one.part.apart), one.results.data["n"]]
+        for found in (*one.results.rows, *one.results.baselines):
+            named = [getattr(found.system, key) for key in NAMED]
+            bounds = [one for name in METRICS for one in found.figure(name).to_json().values()]
+            values = [None if bound is None else f"{bound:.6g}" for bound in bounds]
+            yield [*common, *named, found.kind, None, *values]
+        for entry in one.failed:
+            named = [entry[key] for key in NAMED]
+            yield [*common, *named, "failed", entry["reason"], *[None] * len(figures)]

@@ -1,1 +1,0 @@
-"""Many candidates on several data sets with one command, a process each, resumed after a kill."""
