@@ -200,17 +200,19 @@ def run_cases(
     new_plan: Callable[[Planner, bool], Plan],
     progress: Report,
     limit: int | None = None,
-    **rerun: bool,
+    *,
+    resume: bool = False,
+    overwrite: bool = False,
 ) -> Table:
     """Run the cases of files with every pair of agents. Plans are written into `out` as they are
-    made, with `resume` those that are there are not made again (`rerun`: resume, overwrite); from
-    them the tables and, last, results.json. `new_plan` makes what plans a case, for demands with
-    open places taken to be somewhere. Returns the table. Raises PlannerError.
+    made, with `resume` those that are there are not made again; from them the tables and, last,
+    results.json. `new_plan` makes what plans a case, for demands with open places taken to be
+    somewhere. Returns the table. Raises PlannerError.
     """
     cases = bench.load(cases_in, vocabulary)[:limit]
     planners = [Planner(settings) for settings in agents]
-    check_folder(out, bench.files, **rerun)
-    if rerun.get("overwrite"):
+    check_folder(out, bench.files, resume=resume, overwrite=overwrite)
+    if overwrite:
         clear(out, bench.files)
     rows = [_row(planner) for planner in planners]
     data = [bench.kind, vocabulary.sha256, *map(files.sha256_file, cases_in)]
@@ -240,8 +242,8 @@ def run_cases(
     if SCORES in bench.files:
         files.write_jsonl(out / SCORES, [line for one in rows for line in bench.lines(one)])
     files.write_text(out / TABLE, markdown_table(table) + bench.below(rows))
-    found = {"rows": [bench.record(one) for one in rows], "manifest": manifest}
-    files.write_json(out / RESULTS, found)
+    record: Record = {"rows": [bench.record(one) for one in rows], "manifest": manifest}
+    files.write_json(out / RESULTS, record)
     return table
 
 
