@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.results import Results
+from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.decoding.configurations import parse_configuration
@@ -69,32 +69,14 @@ def run_settings(raw: Mapping[str, Any], here: Path, **given: Any) -> BenchSetti
 
 
 @dataclass(frozen=True)
-class Threshold:
-    """Bounds of one metric, in the unit of results.json: rates are fractions."""
-
-    metric: str
-    minimum: float | None
-    maximum: float | None
-
-    def shortfall(self, results: Results) -> str | None:
-        """How the gate's row misses the bounds, or None."""
-        value = results.rows[0].metrics[self.metric].value
-        if value is None:
-            return f"{self.metric} was not measured"
-        if self.minimum is not None and value < self.minimum:
-            return f"{self.metric} is {value:.4g}, below the minimum {self.minimum:g}"
-        if self.maximum is not None and value > self.maximum:
-            return f"{self.metric} is {value:.4g}, above the maximum {self.maximum:g}"
-        return None
-
-
-@dataclass(frozen=True)
 class Gate:
-    """A gate file (TOML): one candidate in one configuration, and thresholds by metric."""
+    """A gate file (TOML): one candidate in one configuration, and by metric the bounds "min" and
+    "max" in the unit of results.json: rates are fractions.
+    """
 
     path: Path
     settings: BenchSettings
-    thresholds: tuple[Threshold, ...]
+    thresholds: dict[str, dict[str, float]]
 
 
 def load_gate(path: Path) -> Gate:
@@ -102,10 +84,12 @@ def load_gate(path: Path) -> Gate:
     raw, here = read_toml(path), path.parent
     if problems := key_problems(raw, KEYS, REQUIRED):
         raise PlannerError(f"{path}: {'; '.join(problems)}")
-    thresholds = tuple(_threshold(path, *item) for item in raw["thresholds"].items())
-    if not thresholds:
+    if not raw["thresholds"]:
         example = "write for example schema_valid = { min = 0.98 }"
         raise PlannerError(f"{path}: [thresholds] names no metric; {example}")
+    for metric, bounds in raw["thresholds"].items():
+        if problem := _bounds_problem(metric, bounds):
+            raise PlannerError(f"{path}: {problem}")
     settings = run_settings(
         {"latency_samples": 25 if "latency_s" in raw["thresholds"] else 0, **raw},
         here,
@@ -113,7 +97,7 @@ def load_gate(path: Path) -> Gate:
         configurations=(raw["configuration"],),
         adapters=(str(here / raw["adapter"]),) if "adapter" in raw else (),
     )
-    return Gate(path, settings, thresholds)
+    return Gate(path, settings, raw["thresholds"])
 
 
 def run_gate(
@@ -122,27 +106,36 @@ def run_gate(
     """Run the gate into `out`; `show` gets the results. Raises GateError for a low figure."""
     results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
     show(results)
-    found = (threshold.shortfall(results) for threshold in gate.thresholds)
+    row = results.rows[0]
+    found = (_shortfall(row, *threshold) for threshold in gate.thresholds.items())
     if shortfalls := [text for text in found if text]:
-        system = results.rows[0].system
-        where = f"{gate.path}: {system.label}, {system.configuration}"
+        where = f"{gate.path}: {row.system.label}, {row.system.configuration}"
         raise GateError(f"{where}: {'; '.join(shortfalls)}")
     return results
 
 
-def _threshold(path: Path, metric: str, bounds: Any) -> Threshold:
+def _shortfall(row: Row, metric: str, bounds: dict[str, float]) -> str | None:
+    """How a row misses the bounds of a metric, or None."""
+    value = row.metrics[metric].value
+    if value is None:
+        return f"{metric} was not measured"
+    if value < bounds.get("min", value):
+        return f"{metric} is {value:.4g}, below the minimum {bounds['min']:g}"
+    if value > bounds.get("max", value):
+        return f"{metric} is {value:.4g}, above the maximum {bounds['max']:g}"
+    return None
+
+
+def _bounds_problem(metric: str, bounds: Any) -> str | None:
     if metric not in METRIC:
-        raise PlannerError(f"{path}: unknown metric {metric!r}; there are {', '.join(METRIC)}")
+        return f"unknown metric {metric!r}; there are {', '.join(METRIC)}"
     values = bounds if isinstance(bounds, dict) else {}
     if not values or values.keys() - {"min", "max"} or {*map(type, values.values())} - {int, float}:
         example = f"such as {metric} = {{ min = 0.98 }}"
-        raise PlannerError(
-            f"{path}: {metric} must be a table of numbers with min or max, {example}"
-        )
+        return f"{metric} must be a table of numbers with min or max, {example}"
     if METRIC[metric].fraction and any(not 0 <= value <= 1 for value in values.values()):
-        unit = "is a fraction between 0 and 1, as in results.json, not a percentage"
-        raise PlannerError(f"{path}: {metric} {unit}")
-    return Threshold(metric, values.get("min"), values.get("max"))
+        return f"{metric} is a fraction between 0 and 1, as in results.json, not a percentage"
+    return None
 
 
 @dataclass(frozen=True)
@@ -207,11 +200,6 @@ def _part(values: dict[str, Any], here: Path) -> Part:
         way = "becomes a folder: letters, digits, - and _ alone"
         raise PlannerError(f"name {values['name']!r} {way}")
     names = dict.fromkeys(parse_configuration(text).name for text in values["configurations"])
-    settings = run_settings(
-        values,
-        here,
-        candidates=tuple(values["candidates"]),
-        configurations=tuple(names),
-        quantization=values.get("quantization"),
-    )
-    return Part(values["name"], settings, values.get("apart", False))
+    run: dict[str, Any] = {"candidates": tuple(values["candidates"])}
+    run |= {"configurations": tuple(names), "quantization": values.get("quantization")}
+    return Part(values["name"], run_settings(values, here, **run), values.get("apart", False))

@@ -15,7 +15,6 @@ from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
 from planner_ft.candidates import Candidate, adapters, all_candidates, loading, resolve_candidate
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
-from planner_ft.confidence.calibration import Calibration, calibration_file, read_calibration
 from planner_ft.data.leakage import input_digest
 from planner_ft.decoding.configurations import Configuration, parse_configuration
 from planner_ft.decoding.constraints.factory import constraint_factory
@@ -63,22 +62,6 @@ class Job:
     def name(self) -> str:
         repeat = f" #{self.sampling.repeat}" if self.sampling else ""
         return f"{self.system.key}{repeat}"
-
-    def calibration(self) -> Calibration | None:
-        """What turns its log-probabilities into confidence, if anything. Raises PlannerError."""
-        folder = self.adapter or self.candidate.folder
-        if folder is None or self.sampling is not None:
-            return None
-        level, configuration = self.parts["level"], self.configuration.name
-        agent = {
-            "candidate": self.candidate.name,
-            "configuration": configuration,
-            "quantization": self.quantization,
-            "weights_sha256": self.parts["model"],
-            "adapter_sha256": self.parts["adapter"],
-            "vocabulary_sha256": self.parts["vocabulary"],
-        }
-        return read_calibration(calibration_file(folder, level, configuration), agent)[0]
 
     def named(self) -> dict[str, Any]:
         """The fields of a record that name the job."""
@@ -238,10 +221,8 @@ def _job(
         "adapter": adapters.adapter_sha256(used) if used else None,
         "quantization": quantization,
     }
-    system = _system(
-        candidate,
-        configuration,
-        candidate.row_name,
+    system = System(
+        *(candidate.name, configuration.name, candidate.row_name, candidate.published),
         is_standin=candidate.is_standin,
         pretrained=candidate.knows(vocabulary),
         with_vocabulary=with_vocabulary,
@@ -251,11 +232,6 @@ def _job(
     threads = decoding_threads(candidate, str(common["device"]).split()[0])
     every = _parts(common, system, parts)
     return Job(candidate, configuration, every, system, used, quantization, threads)
-
-
-def _system(candidate: Candidate, configuration: Configuration, label: str, **more: Any) -> System:
-    known = candidate.name, configuration.name, label, candidate.published
-    return System(*known, **more)
 
 
 def _parts(common: Parts, system: System, parts: Parts) -> Parts:
@@ -277,8 +253,10 @@ def _served_job(endpoint: EndpointSettings, configuration: Configuration, common
         one for one in all_candidates() if wanted in ((one.repo or "").lower(), one.name.lower())
     ]
     candidate = Candidate(name=endpoint.model, published=known[0].published if known else None)
-    label = f"{candidate.row_name} at {endpoint.host}"
-    system = _system(candidate, configuration, label, with_vocabulary=with_vocabulary)
+    label, name = f"{candidate.row_name} at {endpoint.host}", configuration.name
+    system = System(
+        candidate.name, name, label, candidate.published, with_vocabulary=with_vocabulary
+    )
     sampling = {"temperature": 0, "seed": SERVER_SEED}
     parts = _parts(common, system, {"endpoint": endpoint.root, "sampling": sampling})
     return Job(candidate, configuration, parts, system)

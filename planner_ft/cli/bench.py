@@ -227,7 +227,7 @@ def _run_gate(o: Options) -> None:
         target = o.out or Path(temporary) / "gate"
         with working(target, PREDICTIONS, keeps=o.out is not None) as progress:
             run_gate(gate, target, progress, lambda results: _show(results, o.out), **common)
-    show(f"{o.gate}: passed ({', '.join(threshold.metric for threshold in gate.thresholds)})")
+    show(f"{o.gate}: passed ({', '.join(gate.thresholds)})")
 
 
 def _report(folder: Path) -> None:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.sources import Fields, Timed
 from planner_ft.candidates.loading import resolve_device
-from planner_ft.confidence.calibration import plan_confidence
+from planner_ft.confidence.calibration import plan_confidence, read_calibration
 from planner_ft.confidence.parts import as_json, known
 from planner_ft.decoding.configurations import Configuration
 from planner_ft.decoding.engine import Engine
+from planner_ft.planning.settings import Agent
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.resources import peak_memory, reset_peak_memory
 
@@ -28,7 +29,8 @@ class EngineSource:
     """An engine with the candidate's adapter, if any job needs it. Raises PlannerError."""
 
     def __init__(self, plan: Plan, jobs: Sequence[Job]) -> None:
-        self.device, self.level = resolve_device(plan.device), plan.settings.level
+        self.plan, self.level = plan, plan.settings.level
+        self.device = resolve_device(plan.device)
         reset_peak_memory(self.device)
         started = time.perf_counter()
         adapter = next((job.adapter for job in jobs if job.adapter), None)
@@ -59,7 +61,12 @@ class EngineSource:
             chosen, how = [queries[index] for index in indices], {"sampling": job.sampling}
             return self.engine.answers(chosen, job.configuration, batch_size=len(indices), **how)
 
-        calibration = job.calibration()
+        calibration = None
+        if job.sampling is None:
+            how = job.configuration, job.adapter, job.quantization, job.with_vocabulary
+            agent = Agent(self.level, job.candidate, *how)
+            held_for = agent.held_for(self.plan.vocabulary)
+            calibration = read_calibration(agent.calibration, held_for)[0]
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
             text = self.engine.text(answer)
             choices = known(self.engine.choices(answer), text)
