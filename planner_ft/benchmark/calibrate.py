@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.breakdown import confidence_figures
 from planner_ft.benchmark.folder import PREDICTIONS, RUN, records_by_key
 from planner_ft.benchmark.metrics.alignment import agreeing_keys, changed_keys
-from planner_ft.benchmark.metrics.confidence import confidence_figures
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.scoring import SampleScore, score_sample

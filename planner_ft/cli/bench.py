@@ -108,7 +108,7 @@ def compare(o: Options) -> None:
 def report(o: Options) -> None:
     """Write the report of runs."""
     if o.card is not None:
-        from planner_ft.report.card import write_card
+        from planner_ft.report.write import write_card
 
         show(f"{o.card / 'README.md'}: {write_card(o.card, o.runs)} measured figures")
         return

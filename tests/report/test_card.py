@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from huggingface_hub import ModelCard
 
-from planner_ft.report.card import write_card
+from planner_ft.report.write import write_card
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_tree
 from planner_ft.training.output import model_card
