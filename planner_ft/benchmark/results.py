@@ -13,6 +13,7 @@ from planner_ft.benchmark.baselines import make_baselines
 from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import Contrasts, Question, changes, contrasts, system_key
+from planner_ft.benchmark.metrics.failures import FAILURES
 from planner_ft.benchmark.paired import Comparison
 from planner_ft.benchmark.samples import BenchData
 from planner_ft.benchmark.scoring import score_sample
@@ -221,15 +222,10 @@ def heading(configuration: str) -> str:
 
 
 def assemble(
-    data: BenchData,
-    vocabulary: Vocabulary,
-    measured: Sequence[Measured],
-    *,
-    seed: int,
-    manifest: Record,
+    data: BenchData, vocabulary: Vocabulary, measured: Sequence[Measured], manifest: Record
 ) -> Results:
     """Score every system and the baselines; repeats of a system make one row."""
-    systems: dict[str, list[Measured]] = {}
+    systems, seed = dict[str, list[Measured]](), manifest["seed"]
     for entry in measured:
         systems.setdefault(entry.system.key, []).append(entry)
     baselines = make_baselines(data, vocabulary)
@@ -238,18 +234,19 @@ def assemble(
         for label, lines in baselines.answers.items()
     ]
     ours = [score_system(data, entries, vocabulary, seed) for entries in systems.values()]
-    theirs = [(one, score_system(data, [one], vocabulary, seed)) for one in without_model]
-    beside = [
-        {**line, **one.predictions[line["id"]]} for one, scored in theirs for line in scored[1]
-    ]
+    theirs = [score_system(data, [one], vocabulary, seed) for one in without_model]
+    answers = [line for one in without_model for line in one.predictions.values()]
+    scored = (line for _row, lines in theirs for line in lines)
     return Results(
         data.level,
         data.summary(),
         tuple(row for row, _lines in ours),
         manifest,
         tuple(line for _row, lines in ours for line in lines),
-        baselines=tuple(row for _one, (row, _lines) in theirs),
-        baseline_scores=tuple(beside),
+        baselines=tuple(row for row, _lines in theirs),
+        baseline_scores=tuple(
+            {**line, **answer} for line, answer in zip(scored, answers, strict=True)
+        ),
         baseline_notes=baselines.notes,
         training=baselines.training,
     )
@@ -259,15 +256,16 @@ def score_system(
     data: BenchData, entries: Sequence[Measured], vocabulary: Vocabulary, seed: int
 ) -> tuple[Row, list[Record]]:
     """The row of one system, measured once or once per repeat, and its scores per answer."""
-    asked = [(sample, one) for one in entries for sample in data.samples]
-    scores = [
-        score_sample(data.level, sample, answers.get(sample.id), vocabulary, timed.get(sample.id))
-        for sample, one in asked
-        for answers, timed in [(one.predictions, one.timed)]
+    asked = [
+        (sample, one.predictions.get(sample.id), one.timed.get(sample.id))
+        for one in entries
+        for sample in data.samples
     ]
-    known = [one.predictions.get(sample.id, {}).get("finish_reason") for sample, one in asked]
+    scores = [score_sample(data.level, one, found, vocabulary, took) for one, found, took in asked]
+    known = [answer.get("finish_reason") for _sample, answer, _timed in asked if answer]
     reasons = Counter(str(reason) for reason in known if reason)
-    missing = [sample.id for sample, one in asked if sample.id not in one.predictions]
+    missing = [sample.id for sample, answer, _timed in asked if answer is None]
+    failures = Counter(score.failure for score in scores)
     several, n, first = len(entries) > 1, len(data.samples), entries[0]
     families = {sample.id: sample.family for sample in data.samples}
     timed = {sample: line for one in entries for sample, line in one.timed.items()}
@@ -275,7 +273,7 @@ def score_system(
         replace(first.system, repeat=None),
         n,
         summary.summarise(scores, seed),
-        summary.failure_counts(scores),
+        {kind: failures[kind] for kind in FAILURES},
         dict(sorted(reasons.items())),
         tuple(dict.fromkeys(missing)),
         latency_n=sum(score.values["latency_s"] is not None for score in scores),

@@ -196,7 +196,7 @@ def _results(plan: Plan, took: dict[str, Any]) -> Results:
         run=took,
     )
     found = folder.measured_in(settings.folder, record, [job.name for job in plan.jobs])
-    return assemble(plan.data, plan.vocabulary, found, seed=settings.seed, manifest=manifest)
+    return assemble(plan.data, plan.vocabulary, found, manifest)
 
 
 def planning_command(tasks: int, variant: int) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import iterate_jsonl
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
+from planner_ft.vocabulary.plans import is_number
 
 CONFIGURATION = "submitted"  # configuration of predictions that name none
 COUNTS = ("tokens", "latency_s", "forward_passes")
@@ -36,13 +36,13 @@ def score_predictions(
     """
     found, timed = [], _timed(path)
     for key, lines in _read(path, data.ids, name or path.stem).items():
-        own = {sample: line for sample, line in lines.items() if _is_timed(line)}
+        own = {sample: line for sample, line in lines.items() if _is_count(line.get("latency_s"))}
         system = _system(key, lines, vocabulary)
         found.append(Measured(system, lines, {**timed.get(key, {}), **own}))
     configuration = {"level": data.level, "vocabulary": vocabulary.named}
     inputs: dict[str, Path | str] = {"predictions": path, "data": data.path}
     manifest = build_manifest("score", seed=seed, configuration=configuration, inputs=inputs)
-    return assemble(data, vocabulary, found, seed=seed, manifest=manifest)
+    return assemble(data, vocabulary, found, manifest)
 
 
 def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
@@ -69,7 +69,7 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
         jobs=record.jobs,
         costs=record.costs,
     )
-    return assemble(data, vocabulary, measured_in(folder, record), seed=seed, manifest=manifest)
+    return assemble(data, vocabulary, measured_in(folder, record), manifest)
 
 
 def _read(path: Path, known: frozenset[str], name: str) -> dict[Key, Lines]:
@@ -121,19 +121,14 @@ def _timed(path: Path) -> dict[Key, Lines]:
     beside = path.with_name(LATENCY)
     if path.name == PREDICTIONS and beside.is_file():
         for _number, line, _problem_there in iterate_jsonl(beside):
-            if isinstance(line, dict) and _is_timed(line):
+            if isinstance(line, dict) and _is_count(line.get("latency_s")):
                 names = str(line.get("candidate")), str(line.get("configuration"))
                 timed.setdefault((*names, line.get("repeat")), {})[str(line.get("id"))] = line
     return timed
 
 
-def _is_timed(line: dict[str, Any]) -> bool:
-    return line.get("latency_s") is not None and _is_count(line["latency_s"])
-
-
 def _is_count(value: Any) -> bool:
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and 0 <= value < math.inf
+    return is_number(value) and value >= 0
 
 
 def _problems(line: Any, known: frozenset[str]) -> Iterator[str]:

@@ -236,7 +236,7 @@ def _part(
     results = Results(data.level, data.summary(), (), own)
     if found:
         vocabulary = load_vocabulary(units[0].settings.vocabulary)
-        results = assemble(data, vocabulary, found, seed=manifest["seed"], manifest=own)
+        results = assemble(data, vocabulary, found, own)
     return PartResults(part, results, tuple(failed))
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
 
 from planner_ft.benchmark import statistics
 from planner_ft.benchmark.catalogue import METRIC, Metric
-from planner_ft.benchmark.metrics.failures import FAILURES
 from planner_ft.benchmark.scoring import SampleScore
+from planner_ft.vocabulary.plans import is_number
 
 OF_GROUPS = ("f1", "exact_sequence", "parameters", "whole_plan", "strict_valid")
 QUANTILES = (("median", 0.5), ("p90", 0.9), ("p99", 0.99))
@@ -26,12 +26,6 @@ def summarise(
 ) -> dict[str, statistics.Estimate]:
     """Metrics over samples, 95 %, families as such: Wilson for rates, bootstrap for others."""
     return {name: _estimate(METRIC[name], _terms(METRIC[name], scores), seed) for name in names}
-
-
-def failure_counts(scores: Scores) -> dict[str, int]:
-    """Number of wrong answers per kind of failure, every kind named."""
-    counts = Counter(score.failure for score in scores)
-    return {kind: counts[kind] for kind in FAILURES}
 
 
 def _terms(metric: Metric, scores: Scores) -> list[Term]:
@@ -129,31 +123,25 @@ def cost_figures(
     latency.jsonl by sample id, `families` the phrasing families of samples, `beside` the figures of
     run.json on the candidate, `planning` the row's lines of planning.jsonl.
     """
-    known = {name: line for name, line in timed.items() if _is_number(line.get("latency_s"))}
+    known = {name: line for name, line in timed.items() if is_number(line.get("latency_s"))}
     lines, figures = list(known.values()), Figures()
     clusters = [families.get(name, name) for name in known]
     if lines:
         seconds = [float(line["latency_s"]) for line in lines]
-        of_shares = {
-            name: statistics.quantile(seconds, share).to_json() for name, share in QUANTILES
-        }
-        figures["latency_s"] = of_shares
+        shares = {name: statistics.quantile(seconds, share) for name, share in QUANTILES}
+        figures["latency_s"] = {name: share.to_json() for name, share in shares.items()}
         first = [line.get("first_token_s") for line in lines]
         pairs = [(one, of) for one, of in zip(first, clusters, strict=True) if one is not None]
         if pairs:
             times, own = zip(*pairs, strict=True)
             figures["first_token_s"] = statistics.bootstrap_mean(times, own, seed).to_json()
-        if all(_is_number(line.get("tokens")) for line in lines):
+        if all(is_number(line.get("tokens")) for line in lines):
             tokens = [float(line["tokens"]) for line in lines]
             rate = statistics.bootstrap_ratio(tokens, seconds, clusters, seed)
             figures["tokens_per_s"] = rate.to_json()
         figures["n"] = len(lines)
     figures |= {name: beside[name] for name in BESIDE if beside.get(name) is not None}
     return figures | ({"planning": _planning_times(planning, seed)} if planning else {})
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float)
 
 
 def _planning_times(lines: Sequence[Mapping[str, Any]], seed: int) -> list[Figures]:
@@ -165,8 +153,9 @@ def _planning_times(lines: Sequence[Mapping[str, Any]], seed: int) -> list[Figur
     made = []
     for tasks, found in sorted(by_tasks.items()):
         seconds, ids = [line["seconds"] for line in found], [line["id"] for line in found]
-        agents = ("mission_s", "task_s")
-        means = {name: sum(line[name] for line in found) / len(found) for name in agents}
         whole = statistics.bootstrap_mean(seconds, ids, seed).to_json()
-        made.append({"tasks": tasks, "n": len(found), "seconds": whole, **means})
+        figures: Figures = {"tasks": tasks, "n": len(found), "seconds": whole}
+        for agent in ("mission_s", "task_s"):
+            figures[agent] = sum(line[agent] for line in found) / len(found)
+        made.append(figures)
     return made

@@ -105,7 +105,7 @@ class Runs:
         system = System(values["--candidates"], values["--configurations"], label="stand-in")
         measured = [Measured(system, answers)]
         out = Path(values["--out"])
-        folder.write_results(out, assemble(tests, DRONE, measured, seed=0, manifest={"seed": 0}))
+        folder.write_results(out, assemble(tests, DRONE, measured, {"seed": 0}))
 
     def __enter__(self) -> Runs:
         return self
