@@ -127,14 +127,14 @@ def main() -> None:
     warm = [
         score_sample(level, sample, predictions[sample.id], vocabulary) for sample in samples[:20]
     ]
-    summarise(warm, seed=0)
+    summarise([one.to_json() for one in warm], seed=0)
     profiler = cProfile.Profile()
     start = time.process_time()
     if options.profile:
         profiler.enable()
     scores = [score_sample(level, sample, predictions[sample.id], vocabulary) for sample in samples]
     scored = time.process_time() - start
-    metrics = summarise(scores, seed=0)
+    metrics = summarise([one.to_json() for one in scores], seed=0)
     profiler.disable()
     seconds = time.process_time() - start
     print(

@@ -4,6 +4,7 @@ each trained on and benchmarked; then come the table and, in words, what more sa
 
 from __future__ import annotations
 
+import itertools
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -16,7 +17,6 @@ from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import Scores, by_system
 from planner_ft.benchmark.paired import Comparison, adjusted, paired
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
-from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.summary import OF_GROUPS, summarise
@@ -60,19 +60,13 @@ class Curve:
         """Seed after seed, so that every size is there early."""
         pairs = [(0, 0)] if 0 in self.sizes else []
         pairs += [(size, seed) for seed in range(self.seeds) for size in self.sizes if size]
-        return [
-            Trained(
-                f"{size} samples, seed {seed}" if size else "0 samples",
-                self.out / RUNS / f"{size}-{seed}",
-                len(self.data.samples),
-                weight=TESTED,
-                before=size * self.request.settings.epochs,
-                curve=self,
-                size=size,
-                seed=seed,
-            )
-            for size, seed in pairs
-        ]
+        units = []
+        for size, seed in pairs:
+            name = f"{size} samples, seed {seed}" if size else "0 samples"
+            place, trained = self.out / RUNS / f"{size}-{seed}", size * self.request.settings.epochs
+            work = len(self.data.samples), TESTED, trained
+            units.append(Trained(name, place, *work, curve=self, size=size, seed=seed))
+        return units
 
     def asked(self) -> dict[str, Any]:
         """Everything that the figures depend on but sizes and seeds, which may become more."""
@@ -160,26 +154,18 @@ class Trained(Unit):
             records = list(curve.train.records)
             Random(f"learning curve {self.seed}").shuffle(records)
             files.write_jsonl(here / "train.jsonl", records[: self.size])
-            own: dict[str, Any] = {"level": request.level, "candidate": named}
-            own |= {"vocabulary": vocabulary, "train-file": here / "train.jsonl"}
-            own |= {"output": adapter, "seed": self.seed}
-            own |= {"validation-file": checked} if (checked := request.validation_file) else {}
-            flags = {**own, **curve.settings}.items()
-            given = [
-                part for name, one in flags for part in (f"--{name.replace('_', '-')}", str(one))
-            ]
+            flags: dict[str, Any] = {"level": request.level, "candidate": named}
+            flags |= {"vocabulary": vocabulary, "train-file": here / "train.jsonl"}
+            flags |= {"output": adapter, "seed": self.seed}
+            flags |= {"validation-file": checked} if (checked := request.validation_file) else {}
+            flags |= curve.settings
+            pairs = ((f"--{name.replace('_', '-')}", str(one)) for name, one in flags.items())
+            given = itertools.chain.from_iterable(pairs)
             yield "train", ["train", *given, "--resume"], here / "train.log"
-        weights = "lora" if self.size else "base"
+        name = parse_configuration(f"{'lora' if self.size else 'base'}+{curve.strength}").name
         settings = BenchSettings(
-            request.level,
-            (named,),
-            (parse_configuration(f"{weights}+{curve.strength}").name,),
-            curve.data.path,
-            here / "bench",
-            curve.limit,
-            (str(adapter),) if self.size else (),
-            vocabulary,
-            curve.request.settings.device,
+            *(request.level, (named,), (name,), curve.data.path, here / "bench", curve.limit),
+            *((str(adapter),) if self.size else (), vocabulary, request.settings.device),
             quantization=curve.settings.get("quantization"),
             latency_samples=0,
         )
@@ -212,11 +198,7 @@ def read_points(curve: Curve) -> list[Point]:
 
 def _point(size: int, runs: Sequence[Scores]) -> Point:
     every = {name: [line for run in runs for line in run[name]] for name in runs[0]}
-    answers = [
-        SampleScore(line["id"], line["family"], line["group"], line["failure"], dict(line))
-        for lines in every.values()
-        for line in lines
-    ]
+    answers = [line for lines in every.values() for line in lines]
     of_runs = ([line for lines in run.values() for line in lines] for run in runs)
     by_seed = ({name: METRIC[name].value(lines) for name in OF_GROUPS} for lines in of_runs)
     figures = summarise(answers, SEED, OF_GROUPS)
@@ -255,37 +237,27 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
     return text.strip()
 
 
-def curve_table(found: Sequence[Point], what: str) -> Table:
-    """A row per size: figures with intervals, and below F1 its range over the seeds."""
-    rows = []
+def write_curve(curve: Curve) -> list[Point]:
+    """Write table.md (a row per size), table.csv and, last, learning_curve.json."""
+    request, found = curve.request, read_points(curve)
+    comparisons, what, rows = compared(found), SAMPLES[request.level], []
     for point in found:
         values = [one["f1"] for one in point.by_seed if one["f1"] is not None]
         spread = f"{min(values):.2f} to {max(values):.2f}" if len(values) > 1 else NOTHING
         figures = [METRIC[name].cell(point.metrics[name]) for name in OF_GROUPS]
         rows.append(row(str(point.size), *figures, spread))
     heads = (*(METRIC[name].title for name in OF_GROUPS), "F1 by seed")
-    return Table(what.capitalize(), heads, rows)
-
-
-def write_curve(curve: Curve) -> list[Point]:
-    """Write table.md, table.csv and, last, learning_curve.json with the manifest."""
-    found, what = read_points(curve), SAMPLES[curve.request.level]
-    comparisons = compared(found)
-    table, said = curve_table(found, what), answer(found, comparisons, what)
+    table, said = Table(what.capitalize(), heads, rows), answer(found, comparisons, what)
     how = f"95 % intervals over the answers of {curve.seeds} adapters of each size to the test set."
     files.write_text(curve.out / "table.md", f"{markdown_table(table)}\n{said}\n\n{how}\n")
     files.write_text(curve.out / "table.csv", csv_table(table))
-    record: dict[str, Any] = {"level": curve.request.level, "data": curve.data.summary()}
+    record: dict[str, Any] = {"level": request.level, "data": curve.data.summary()}
     record |= {"answer": said, "points": [point.to_json() for point in found]}
     record["comparisons"] = [one.to_json() for pairs in comparisons for one in pairs]
-    files.write_json(curve.out / RESULT, {**record, "manifest": _manifest(curve)})
-    return found
-
-
-def _manifest(curve: Curve) -> dict[str, Any]:
-    request = curve.request
     inputs: dict[str, Path | str] = {"training": request.train_file, "data": curve.data.path}
     inputs |= {"validation": request.validation_file} if request.validation_file else {}
     sizes = {"sizes": list(curve.sizes), "seeds": curve.seeds, "given": curve.settings}
     asked = {**curve.asked(), **sizes}
-    return build_manifest("learning-curve", seed=SEED, configuration=asked, inputs=inputs)
+    manifest = build_manifest("learning-curve", seed=SEED, configuration=asked, inputs=inputs)
+    files.write_json(curve.out / RESULT, {**record, "manifest": manifest})
+    return found

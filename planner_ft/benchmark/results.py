@@ -267,22 +267,23 @@ def score_system(
     missing = [sample.id for sample, answer, _timed in asked if answer is None]
     failures = Counter(score.failure for score in scores)
     several, n, first = len(entries) > 1, len(data.samples), entries[0]
+    named: Record = {name: getattr(first.system, name) for name in ("candidate", "configuration")}
+    lines = [
+        {**named, **({"repeat": index // n + 1} if several else {}), **score.to_json()}
+        for index, score in enumerate(scores)
+    ]
     families = {sample.id: sample.family for sample in data.samples}
     timed = {sample: line for one in entries for sample, line in one.timed.items()}
     row = Row(
         replace(first.system, repeat=None),
         n,
-        summary.summarise(scores, seed),
+        summary.summarise(lines, seed),
         {kind: failures[kind] for kind in FAILURES},
         dict(sorted(reasons.items())),
         tuple(dict.fromkeys(missing)),
-        latency_n=sum(score.values["latency_s"] is not None for score in scores),
-        repeats=summary.pass_figures(scores, seed) if several else None,
+        latency_n=sum(line["latency_s"] is not None for line in lines),
+        repeats=summary.pass_figures(lines, seed) if several else None,
         breakdown=breakdown(scores),
         costs=summary.cost_figures(timed, families, first.costs, first.planning, seed),
     )
-    named: Record = {name: getattr(first.system, name) for name in ("candidate", "configuration")}
-    return row, [
-        {**named, **({"repeat": index // n + 1} if several else {}), **score.to_json()}
-        for index, score in enumerate(scores)
-    ]
+    return row, lines

@@ -9,7 +9,6 @@ from typing import Any
 
 from planner_ft.benchmark import statistics
 from planner_ft.benchmark.catalogue import METRIC, Metric
-from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.vocabulary.plans import is_number
 
 OF_GROUPS = ("f1", "exact_sequence", "parameters", "whole_plan", "strict_valid")
@@ -17,7 +16,7 @@ QUANTILES = (("median", 0.5), ("p90", 0.9), ("p99", 0.99))
 BESIDE = ("load_s", "adapter_swap_s", "peak_memory_bytes")
 """Costs of a candidate that do not belong to a query: run.json has them."""
 Figures = dict[str, Any]
-Scores = Sequence[SampleScore]
+Scores = Sequence[Mapping[str, Any]]  # lines of scores.jsonl
 Term = tuple[float, float, str]  # numerator, denominator and family
 
 
@@ -31,10 +30,10 @@ def summarise(
 def _terms(metric: Metric, scores: Scores) -> list[Term]:
     """The terms of the samples that have a value, or of phrasing families, each counting once."""
     if metric.worst:
-        values = [float(score.values[metric.worst] or 0) for score in scores]
-        ids, families = [score.id for score in scores], [score.family for score in scores]
-        return [(one, 1.0, family) for family, one in worst_cases(values, ids, families).items()]
-    found = ((metric.terms(score.values), score.family) for score in scores)
+        values = [float(score[metric.worst] or 0) for score in scores]
+        named = ([score[key] for score in scores] for key in ("id", "family"))
+        return [(one, 1.0, family) for family, one in worst_cases(values, *named).items()]
+    found = ((metric.terms(score), score["family"]) for score in scores)
     return [(*terms, family) for terms, family in found if terms]
 
 
@@ -62,7 +61,7 @@ def worst_cases(
     return {family: min(value for _, value in found) for family, found in several.items()}
 
 
-def group_figures(scores: Sequence[Figures]) -> list[Figures]:
+def group_figures(scores: Scores) -> list[Figures]:
     """`n` and means per candidate, configuration and group of the data, where it has any."""
     found: dict[tuple[str, str, str], list[Figures]] = {}
     for score in scores:
@@ -99,8 +98,8 @@ def pass_figures(scores: Scores, seed: int) -> Figures:
     """
     attempts: dict[str, list[bool]] = {}
     for score in scores:
-        attempts.setdefault(score.id, []).append(score.failure is None)
-    family = {score.id: score.family for score in scores}
+        attempts.setdefault(score["id"], []).append(score["failure"] is None)
+    family = {score["id"]: score["family"] for score in scores}
     families = [family[name] for name in attempts]
     counts = [(sum(right), len(right)) for right in attempts.values()]
     found: Figures = {"k": min((n for _right, n in counts), default=0)}

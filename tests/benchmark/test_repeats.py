@@ -11,7 +11,6 @@ import pytest
 
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.samples import load_bench_data
-from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.submission import score_predictions, score_run
 from planner_ft.benchmark.summary import all_of, any_of, pass_figures
@@ -37,7 +36,7 @@ def test_the_estimators_are_the_shares_of_all_draws() -> None:
 def test_pass_figures_are_means_over_samples() -> None:
     failures = {"a": [None, None, "omission"], "b": ["omission"] * 3}
     scores = [
-        SampleScore(name, name, None, failure, {})
+        {"id": name, "family": name, "failure": failure}
         for name, found in failures.items()
         for failure in found
     ]
