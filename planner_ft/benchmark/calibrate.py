@@ -10,7 +10,6 @@ from typing import Any
 
 from planner_ft.benchmark.breakdown import confidence_figures
 from planner_ft.benchmark.folder import PREDICTIONS, RUN, records_by_key
-from planner_ft.benchmark.metrics.alignment import agreeing_keys, changed_keys
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.scoring import SampleScore, score_sample
@@ -142,10 +141,9 @@ def _right_entries(
     """Per predicted entry whether name and parameters are right, and the names of right values."""
     found: list[tuple[bool, set[str]]] = [(False, set()) for _ in score.alignment.predicted]
     for ours, theirs in score.alignment.pairs:
-        pair = score.alignment.predicted[theirs], score.alignment.expected[ours]
-        values = {"title" if level == "mission" else "name"}
-        values |= {*agreeing_keys(level, *pair, vocabulary)}
-        found[theirs] = not changed_keys(level, *pair, vocabulary), values
+        wanted, given = score.alignment.expected[ours], score.alignment.predicted[theirs]
+        values = {"title" if level == "mission" else "name", *wanted.agreeing(given, vocabulary)}
+        found[theirs] = not wanted.changed(given, vocabulary), values
     return found
 
 

@@ -65,7 +65,7 @@ def score_sample(
     answer = Answer(level, plan, sample.expected, vocabulary)
     failure = failures.failure_kind(answer)
     logic, details = plan_logic(answer, sample.record)
-    found = compare_parameters(level, answer.alignment, vocabulary)
+    found = compare_parameters(answer.alignment, vocabulary)
     values = _published(answer) | _names(answer) | _parameters(found) | logic
     values |= {
         "whole_plan": failure is None,
@@ -161,8 +161,8 @@ def plan_logic(answer: Answer, record: dict[str, Any]) -> tuple[Values, Details]
     level, plan, vocabulary = answer.level, answer.plan, answer.vocabulary
     mission = level == "mission"
     source = read_input(record, vocabulary)
-    grounded = groundedness(level, answer.given, source, vocabulary)
-    reached = slot_propagation(level, plan, answer.alignment, source, vocabulary)
+    grounded = groundedness(answer.given, source, vocabulary)
+    reached = slot_propagation(plan, answer.alignment, source, vocabulary)
     stop = failures.executable(plan, answer.expected, vocabulary) if mission else None
     stated, refused = reached.stated.total(), failures.refuses(level, plan)
     impossible = failures.refuses(level, answer.expected)

@@ -11,14 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 from rapidfuzz.distance import LCSseq
 
-from planner_ft.benchmark.metrics.alignment import (
-    Entries,
-    Entry,
-    align,
-    changed_keys,
-    plan_entries,
-    replaced,
-)
+from planner_ft.benchmark.metrics.alignment import Entries, Entry, align, plan_entries, replaced
 from planner_ft.benchmark.results import Row
 from planner_ft.report.runs import TestSet
 from planner_ft.vocabulary import Vocabulary
@@ -140,7 +133,7 @@ def differences(
     level: Level, expected: Entries, predicted: Entries, vocabulary: Vocabulary
 ) -> list[Difference]:
     """The lines of a side-by-side view; additions stand where the answer has them."""
-    alignment = align(level, expected, predicted, vocabulary)
+    alignment = align(expected, predicted, vocabulary)
     steady = _in_order([theirs for _ours, theirs in alignment.pairs])
     lines = {}
     for pair in alignment.pairs:
@@ -150,7 +143,7 @@ def differences(
             moved = (one.step, one.role) != (other.step, other.role)
         changed: tuple[str, ...] = ()
         if one.stated:
-            changed = changed_keys(level, other, one, vocabulary)
+            changed = one.changed(other, vocabulary)
         mark: Mark = "changed" if changed else "moved" if moved else "same"
         lines[pair[0]] = Difference(mark, *pair, changed)
     for ours, theirs in replaced(alignment).items():

@@ -23,7 +23,7 @@ USV = load_vocabulary()
 
 
 def aligned(level: Level, expected: Any, predicted: Any) -> Alignment:
-    return align(level, plan_entries(level, expected), plan_entries(level, predicted), USV)
+    return align(plan_entries(level, expected), plan_entries(level, predicted), USV)
 
 
 def transit(x: int, y: int) -> tuple[str, dict[str, Any]]:

@@ -22,9 +22,7 @@ DATA = Path(__file__).parents[2] / "data" / "mission"
 
 
 def judged(level: Level, record: dict[str, Any], plan: Any, vocabulary: Any = USV) -> Groundedness:
-    return groundedness(
-        level, plan_entries(level, plan), read_input(record, vocabulary), vocabulary
-    )
+    return groundedness(plan_entries(level, plan), read_input(record, vocabulary), vocabulary)
 
 
 def mission(prompt: str, title: str, vocabulary: Any = USV, **parameters: Any) -> list[str]:

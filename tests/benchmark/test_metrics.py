@@ -46,7 +46,7 @@ def step(
 
 def parameter_agreement(level: Level, plan: Any, expected: Any) -> Parameters:
     entries = plan_entries(level, expected), plan_entries(level, plan)
-    return compare_parameters(level, align(level, *entries, USV), USV)
+    return compare_parameters(align(*entries, USV), USV)
 
 
 ORBIT = mission(

@@ -6,15 +6,9 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import (
-    Entry,
-    agreeing_keys,
-    align,
-    changed_keys,
-    plan_entries,
-)
+from planner_ft.benchmark.metrics.alignment import Entry, align, plan_entries
 from planner_ft.benchmark.metrics.names import Counts, Parameters, compare_parameters
-from planner_ft.benchmark.metrics.values import known_parameters, values_agree
+from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.vocabulary import Parameter, load_vocabulary
 
 from .plans import mission
@@ -23,13 +17,8 @@ USV = load_vocabulary()
 
 
 def counted(expected: Any, predicted: Any) -> Parameters:
-    return compare_parameters(
-        "mission",
-        align(
-            "mission", plan_entries("mission", expected), plan_entries("mission", predicted), USV
-        ),
-        USV,
-    )
+    entries = (plan_entries("mission", plan) for plan in (expected, predicted))
+    return compare_parameters(align(*entries, USV), USV)
 
 
 @pytest.mark.parametrize(
@@ -153,19 +142,18 @@ def test_a_text_of_up_to_40_characters_is_read_as_a_quantity() -> None:
 
 
 def test_changed_keys_are_those_of_either_side() -> None:
-    def pair(name: str, *parameters: dict[str, Any]) -> list[Entry]:
-        return [Entry(name, "task", 0, one, True) for one in parameters]
+    def entry(name: str, role: str = "task", /, **parameters: Any) -> Entry:
+        return Entry(name, role, 0, parameters, True)
 
-    given, stated = {"radius": 21, "speed": 2}, {"center": [1, 1], "radius": 20}
-    judged = pair("PerformOrbit", given, stated)
-    assert changed_keys("mission", *judged, USV) == ("center", "radius", "speed")
-    judged = pair("PerformOrbit", {**stated, "radius": 20.1}, stated)
-    assert changed_keys("mission", *judged, USV) == ()
-    judged = pair("KeepStation", {"duration": "5 min"}, {"duration": 300})
-    assert changed_keys("mission", *judged, USV) == ("duration",)
-    assert agreeing_keys("mission", *judged, USV)
-    assert set(known_parameters("task", "GoToXY", USV)) > {"x", "y"}
-    assert known_parameters("mission", "GoToXY", USV) == known_parameters("task", "Sail", USV) == {}
+    stated = entry("PerformOrbit", center=[1, 1], radius=20)
+    changed = stated.changed(entry("PerformOrbit", radius=21, speed=2), USV)
+    assert changed == ("center", "radius", "speed")
+    assert stated.changed(entry("PerformOrbit", center=[1, 1], radius=20.1), USV) == ()
+    stated, given = entry("KeepStation", duration=300), entry("KeepStation", duration="5 min")
+    assert stated.changed(given, USV) == ("duration",)
+    assert stated.agreeing(given, USV) == ["duration"]
+    assert set(entry("GoToXY", "navigation").known(USV)) > {"x", "y"}
+    assert entry("GoToXY").known(USV) == entry("Sail", "navigation").known(USV) == {}
 
 
 def test_lists_are_sets_by_content_and_in_the_order_of_urgency_by_form() -> None:
@@ -219,10 +207,7 @@ def test_a_text_with_a_unit_counts_as_a_value_but_the_entry_is_not_right() -> No
         mission(("KeepStation", {"duration": 300})),
         mission(("KeepStation", {"duration": "5 min"})),
     )
-    alignment = align(
-        "mission", plan_entries("mission", stated), plan_entries("mission", given), USV
-    )
-    found = compare_parameters("mission", alignment, USV)
+    found = counted(stated, given)
     assert (found.right, found.values, found.types) == (0, Counts(1, 1, 1), {"number": (1, 1)})
 
 

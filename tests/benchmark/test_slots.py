@@ -50,8 +50,8 @@ ALL = Counter(coordinates=2, lengths=1, speeds=1, names=1, durations=1)
 
 
 def follow(plan: Any, level: Level = "mission", record: dict[str, Any] = RECORD) -> Reached:
-    pairs = align(level, plan_entries(level, record["expected"]), plan_entries(level, plan), USV)
-    return slot_propagation(level, plan, pairs, read_input(record, USV), USV)
+    pairs = align(plan_entries(level, record["expected"]), plan_entries(level, plan), USV)
+    return slot_propagation(plan, pairs, read_input(record, USV), USV)
 
 
 def changed(index: int, **task: Any) -> dict[str, Any]:
@@ -164,4 +164,4 @@ def test_slots_are_counted_by_what_they_are() -> None:
     half = copy.deepcopy(plan)
     half["skill_sequence"][0]["navigation_skill"]["parameters"].pop("y")
     assert lost(follow(half, "task", record))[0] == Counter(coordinates=1)
-    assert next(given_values("task", plan_entries("task", half), USV)).value == 10
+    assert next(given_values(plan_entries("task", half), USV)).value == 10

@@ -96,7 +96,7 @@ def nobodys(level: Level, records: list[dict[str, Any]]) -> tuple[int, int]:
     for record in records:
         source = read_input(record if level == "task" else {"prompt": record["prompt"]}, USV)
         before: list[tuple[float, float]] = []
-        for given in given_values(level, plan_entries(level, record["expected"]), USV):
+        for given in given_values(plan_entries(level, record["expected"]), USV):
             place = given.parameter.name == WAYPOINT.name
             parameter = WAYPOINT if place else given.parameter
             kinds.append(source.evidence(given.value, parameter, SCORING, before).kind)

@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.benchmark.metrics.values import known_parameters, values_agree
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.benchmark.metrics.values import values_agree
+from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
 Pair = tuple[int, int]
@@ -32,6 +32,30 @@ class Entry:
     parameters: dict[str, Any]
     stated: bool
 
+    def known(self, vocabulary: Vocabulary) -> dict[str, Parameter]:
+        """The parameters that it may have; none for a name outside the vocabulary."""
+        is_task = self.role == TASK
+        owner = vocabulary.task.get(self.name) if is_task else vocabulary.skill.get(self.name)
+        return owner.by_name if owner else {}
+
+    def agreeing(self, given: Entry, vocabulary: Vocabulary, *, loose: bool = True) -> list[str]:
+        """Parameters that have the same content, or value (`values_agree`), in a given entry."""
+        if self.parameters == given.parameters:
+            return list(self.parameters)
+        known, ours, theirs = self.known(vocabulary), self.parameters, given.parameters
+        return [
+            key
+            for key in ours
+            if key in theirs
+            and values_agree(theirs[key], ours[key], known.get(key), vocabulary, loose=loose)
+        ]
+
+    def changed(self, given: Entry, vocabulary: Vocabulary) -> tuple[str, ...]:
+        """Parameters that a given entry has with another value, and those of one alone."""
+        same = self.agreeing(given, vocabulary, loose=False)
+        every = dict.fromkeys([*self.parameters, *given.parameters])
+        return tuple(key for key in every if key not in same)
+
 
 Entries = tuple[Entry, ...]
 
@@ -49,31 +73,6 @@ def plan_entries(level: Level, plan: Any) -> Entries:
                 known = given if isinstance(given, dict) else {}
                 found.append(Entry(str(name), role, step, known, known is given))
     return tuple(found)
-
-
-def agreeing_keys(
-    level: Level, given: Entry, stated: Entry, vocabulary: Vocabulary, *, loose: bool = True
-) -> list[str]:
-    """Parameters under which both entries have the same content, or value (`values_agree`)."""
-    ours, theirs = stated.parameters, given.parameters
-    if ours == theirs:
-        return list(ours)
-    known = known_parameters(level, stated.name, vocabulary)
-    return [
-        key
-        for key, value in ours.items()
-        if key in theirs
-        and values_agree(theirs[key], value, known.get(key), vocabulary, loose=loose)
-    ]
-
-
-def changed_keys(
-    level: Level, given: Entry, stated: Entry, vocabulary: Vocabulary
-) -> tuple[str, ...]:
-    """Parameters of either entry whose values do not agree, and those of one alone."""
-    same = agreeing_keys(level, given, stated, vocabulary, loose=False)
-    every = dict.fromkeys([*stated.parameters, *given.parameters])
-    return tuple(key for key in every if key not in same)
 
 
 @dataclass(frozen=True)
@@ -108,7 +107,7 @@ class Alignment:
         return {"pairs": pairs, "missing": list(self.missing), "extra": list(self.extra)}
 
 
-def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocabulary) -> Alignment:
+def align(expected: Entries, predicted: Entries, vocabulary: Vocabulary) -> Alignment:
     """Pair as many entries of equal name as there are, each at most once, so that the sum of their
     likeness is greatest.
 
@@ -132,7 +131,7 @@ def align(level: Level, expected: Entries, predicted: Entries, vocabulary: Vocab
 
     def weight(one: int, other: int) -> float:
         far = ((one - other) / size) ** 2
-        likeness = _likeness(level, expected[one], predicted[other], size, vocabulary)
+        likeness = _likeness(expected[one], predicted[other], size, vocabulary)
         return likeness + (COMPANY * company(one, other) - NEARNESS * far) / size
 
     pairs: list[Pair] = []
@@ -173,14 +172,14 @@ def _assigned(
     return pairs
 
 
-def _likeness(level: Level, ours: Entry, theirs: Entry, size: int, vocabulary: Vocabulary) -> float:
+def _likeness(ours: Entry, theirs: Entry, size: int, vocabulary: Vocabulary) -> float:
     """F1 of key-value pairs, and more than all those together where all parameters are right."""
     if not ours.stated:
         return 0.0
-    agreeing = agreeing_keys(level, theirs, ours, vocabulary)
+    agreeing = ours.agreeing(theirs, vocabulary)
     total = len(ours.parameters) + len(theirs.parameters)
     share = 2 * len(agreeing) / total if total else 1.0
-    return share + size * (share == 1.0 and not changed_keys(level, theirs, ours, vocabulary))
+    return share + size * (share == 1.0 and not ours.changed(theirs, vocabulary))
 
 
 def _by_name(entries: Entries, leading: set[str], lead: bool) -> dict[str, list[int]]:

@@ -23,10 +23,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft import facts
-from planner_ft.benchmark.metrics.alignment import Alignment, Entry
-from planner_ft.benchmark.metrics.values import known_parameters, values_agree
+from planner_ft.benchmark.metrics.alignment import TASK, Alignment, Entry
+from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.vocabulary import Parameter, Vocabulary
-from planner_ft.vocabulary.plans import Level
 
 KINDS = ("coordinates", "lengths", "durations", "speeds", "angles", "numbers", "names")
 BY_UNIT = {"m": "lengths", "s": "durations", "m/s": "speeds", "deg": "angles"}
@@ -59,11 +58,11 @@ class Reached:
 
 
 def groundedness(
-    level: Level, entries: Sequence[Entry], source: facts.Input, vocabulary: Vocabulary
+    entries: Sequence[Entry], source: facts.Input, vocabulary: Vocabulary
 ) -> Groundedness:
     """Judge the values of a plan's entries; where the input cannot be read with certainty, none."""
     judged, ungrounded, before = 0, [], list[tuple[float, float]]()
-    for given in given_values(level, entries, vocabulary):
+    for given in given_values(entries, vocabulary):
         verdict = source.evidence(given.value, given.parameter, facts.SCORING, before).given
         judged += verdict is not None
         ungrounded += [given] if verdict is False else []
@@ -72,17 +71,17 @@ def groundedness(
     return Groundedness(judged, tuple(ungrounded))
 
 
-def given_values(level: Level, entries: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Given]:
+def given_values(entries: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Given]:
     """Every value; a destination's coordinates are one, unknown parameters are judged by form."""
     for index, entry in enumerate(entries):
-        skill = vocabulary.skill.get(entry.name) if level == "task" else None
+        skill = vocabulary.skill.get(entry.name) if entry.role != TASK else None
         pair = [item.name for item in skill.coordinates] if skill else []
         together = len(pair) == 2 and all(
             facts.is_number(entry.parameters.get(name)) for name in pair
         )
         if together:
             yield Given(index, facts.WAYPOINT, [entry.parameters[name] for name in pair])
-        known = known_parameters(level, entry.name, vocabulary)
+        known = entry.known(vocabulary)
         for name, value in entry.parameters.items():
             if not (together and name in pair):
                 yield Given(index, known.get(name) or _by_form(name, value), value)
@@ -107,16 +106,16 @@ def _slot_kind(parameter: Parameter) -> str:
 
 
 def slot_propagation(
-    level: Level, plan: Any, alignment: Alignment, source: facts.Input, vocabulary: Vocabulary
+    plan: Any, alignment: Alignment, source: facts.Input, vocabulary: Vocabulary
 ) -> Reached:
     """Follow every slot of the expected plan into the answer; without a partner it is lost."""
     partner = dict(alignment.pairs)
     there = {
         (given.entry, given.parameter.name): given.value
-        for given in given_values(level, alignment.predicted, vocabulary)
+        for given in given_values(alignment.predicted, vocabulary)
     }
     reached = Reached(Counter(), Counter(), Counter())
-    for slot in given_values(level, alignment.expected, vocabulary):
+    for slot in given_values(alignment.expected, vocabulary):
         # Home, the unresolved location and derived waypoints are no slots.
         if not source.stated(slot.value, slot.parameter, facts.SCORING).given:
             continue
@@ -128,8 +127,8 @@ def slot_propagation(
         reached.in_parameters[kind] += place in there and values_agree(
             there[place], slot.value, slot.parameter, vocabulary, loose=True
         )
-        if level == "mission":
-            prompt = plan["tasks"][alignment.predicted[place[0]].step].get("task_prompt")
+        if (found := alignment.predicted[place[0]]).role == TASK:
+            prompt = plan["tasks"][found.step].get("task_prompt")
             reached.in_prompt[kind] += isinstance(prompt, str) and _says(prompt, slot)
     return reached
 

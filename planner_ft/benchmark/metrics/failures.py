@@ -9,13 +9,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Literal, get_args
 
-from planner_ft.benchmark.metrics.alignment import (
-    Alignment,
-    Entries,
-    align,
-    changed_keys,
-    plan_entries,
-)
+from planner_ft.benchmark.metrics.alignment import Alignment, Entries, align, plan_entries
 from planner_ft.benchmark.metrics.names import name_sequence
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, plan_problems
@@ -58,7 +52,7 @@ class Answer:
 
     @functools.cached_property
     def alignment(self) -> Alignment:
-        return align(self.level, self.wanted, self.given, self.vocabulary)
+        return align(self.wanted, self.given, self.vocabulary)
 
     @functools.cached_property
     def strict_valid(self) -> bool:
@@ -119,7 +113,7 @@ def failure_kind(answer: Answer) -> Failure | None:
     if answer.exact_sequence:
         # Task by task, or step by step: the two targets of two Transits must not be swapped.
         steps = zip(_steps(answer.wanted), _steps(answer.given), strict=True)
-        right = all(_step_right(level, *pair, vocabulary) for pair in steps)
+        right = all(_step_right(*pair, vocabulary) for pair in steps)
         return None if right else "parameter propagation"
     ours, theirs = (Counter(one.name for one in side) for side in (answer.given, answer.wanted))
     missing, added, nowhere = theirs - ours, ours - theirs, list(vocabulary.unresolved)
@@ -146,8 +140,7 @@ def whole_plan_unordered(answer: Answer) -> bool:
     wanted, given = (_alike(entries) for entries in (answer.wanted, answer.given))
     for names, steps in wanted.items():
         right = [
-            [_step_right(answer.level, one, other, answer.vocabulary) for other in given[names]]
-            for one in steps
+            [_step_right(one, other, answer.vocabulary) for other in given[names]] for one in steps
         ]
         pairs = zip(*linear_sum_assignment(right, maximize=True), strict=True)
         if not all(right[row][column] for row, column in pairs):
@@ -155,12 +148,10 @@ def whole_plan_unordered(answer: Answer) -> bool:
     return True
 
 
-def _step_right(level: Level, expected: Entries, predicted: Entries, known: Vocabulary) -> bool:
+def _step_right(expected: Entries, predicted: Entries, vocabulary: Vocabulary) -> bool:
     """Whether two steps with the same names have the same parameters."""
-    pairs = align(level, expected, predicted, known).matched()
-    return not any(
-        ours.stated and changed_keys(level, theirs, ours, known) for ours, theirs in pairs
-    )
+    pairs = align(expected, predicted, vocabulary).matched()
+    return not any(ours.stated and ours.changed(theirs, vocabulary) for ours, theirs in pairs)
 
 
 def _steps(entries: Entries) -> list[Entries]:

@@ -13,14 +13,7 @@ from typing import Any, NamedTuple
 
 from rapidfuzz.distance import LCSseq, Levenshtein
 
-from planner_ft.benchmark.metrics.alignment import (
-    Alignment,
-    Entry,
-    agreeing_keys,
-    changed_keys,
-    plan_entries,
-)
-from planner_ft.benchmark.metrics.values import known_parameters
+from planner_ft.benchmark.metrics.alignment import Alignment, Entry, plan_entries
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, list_key, step_skills
 
@@ -135,16 +128,15 @@ class Parameters(NamedTuple):
     types: dict[str, tuple[int, int]]
 
 
-def compare_parameters(level: Level, alignment: Alignment, vocabulary: Vocabulary) -> Parameters:
+def compare_parameters(alignment: Alignment, vocabulary: Vocabulary) -> Parameters:
     """The parameters of an answer beside the expected ones."""
     expected, predicted = alignment.expected, alignment.predicted
     pairs = [pair for pair in alignment.matched() if pair[0].stated]
     right, keys = 0, 0
     agreed, there = Counter[str](), Counter[str]()
     for ours, theirs in pairs:
-        known = known_parameters(level, ours.name, vocabulary)
-        agreeing = agreeing_keys(level, theirs, ours, vocabulary)
-        right += not changed_keys(level, theirs, ours, vocabulary)
+        known, agreeing = ours.known(vocabulary), ours.agreeing(theirs, vocabulary)
+        right += not ours.changed(theirs, vocabulary)
         keys += len(ours.parameters.keys() & theirs.parameters.keys())
         for key in ours.parameters:
             kind = known[key].type if key in known else "unknown"

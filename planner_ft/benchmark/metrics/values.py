@@ -10,7 +10,6 @@ from planner_ft.facts import is_number, is_place, normalised
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.units import converted
 from planner_ft.vocabulary import Parameter, Vocabulary
-from planner_ft.vocabulary.plans import Level
 
 RELATIVE, ABSOLUTE = 0.02, 0.005
 """Tolerances of numbers: 2 % as the labelling rules allow, half a unit of the second decimal."""
@@ -75,12 +74,6 @@ def _positions_agree(
 def tolerance(size: float) -> float:
     """How far a number may lie off a stated one of this size."""
     return max(RELATIVE * size, ABSOLUTE) + ROUNDING
-
-
-def known_parameters(level: Level, name: str, vocabulary: Vocabulary) -> dict[str, Parameter]:
-    """The parameters of a task or skill by name; none for a name outside the vocabulary."""
-    owner = vocabulary.task.get(name) if level == "mission" else vocabulary.skill.get(name)
-    return owner.by_name if owner else {}
 
 
 def _measured(text: str, unit: str | None) -> float | None:
