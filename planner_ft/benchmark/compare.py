@@ -8,24 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import CATALOGUE, METRIC, Metric
-from planner_ft.benchmark.contrasts import DEFAULT_METRICS, Scores, by_system
+from planner_ft.benchmark.contrasts import DEFAULT_METRICS, Scores, by_system, sentences
 from planner_ft.benchmark.folder import SCORES, read_results
 from planner_ft.benchmark.paired import EXPLAINED, MARGIN, Comparison, adjusted, p_text, paired
 from planner_ft.benchmark.results import Results
 from planner_ft.benchmark.statistics import CONFIDENCE, RESAMPLES
+from planner_ft.support import tables as written
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.tables import (
-    Cell,
-    Table,
-    TableRow,
-    csv_text,
-    figure,
-    latex_table,
-    markdown_table,
-    row,
-    terminal_table,
-)
-from planner_ft.support.templates import text_template
+from planner_ft.support.tables import Cell, Table, TableRow, figure, row
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -105,7 +95,8 @@ def compare_runs(
             found.append((first.name, second.name, one))
     files = len({str(run.data.get("sha256")) for run in runs.values()})
     named = {one.name: one for pair in pairs for one in pair}
-    lacks = _said("lacks", rows=named.values(), files=files, pairs=pairs, metrics=asked)
+    about = {"rows": named.values(), "files": files, "pairs": pairs, "metrics": asked}
+    lacks = sentences("comparison", part="lacks", **about)
     data = [{"path": str(path), "data": runs[path].data} for path in folders]
     how = {"against": against, "same": same, "common": common}
     made_of = {"level": runs[folders[0]].level, "runs": data, **how}
@@ -175,12 +166,6 @@ def _pairs(rows: Sequence[RunRow], first: Path, name: str | None) -> list[tuple[
     return [(matching[0], one) for one in rows if one is not matching[0]]
 
 
-def _said(part: str, **about: Any) -> list[str]:
-    """The notes of a part of templates/comparison.txt.j2."""
-    text = text_template("planner_ft.benchmark", "comparison.txt.j2").render(part=part, **about)
-    return [*dict.fromkeys(filter(str.strip, text.split("\n")))]
-
-
 def render_report(report: Report) -> dict[str, str]:
     """Texts of comparison.md, comparison.csv (unrounded, rates as fractions), comparison.tex."""
     tables, below = _tables(report), notes(report)
@@ -192,11 +177,11 @@ def render_report(report: Report) -> dict[str, str]:
         lines.append([values[name] for name in CSV])
     rows = [one for table in tables for one in (row(table.title, kind="section"), *table.rows)]
     together = replace(tables[0], title="", rows=tuple(rows))
-    texts = [*map(markdown_table, tables), *(f"- {note}" for note in below)]
+    texts = [*map(written.markdown_table, tables), *(f"- {note}" for note in below)]
     return {
         "comparison.md": "\n".join(texts) + "\n",
-        "comparison.csv": csv_text(lines),
-        "comparison.tex": latex_table(together) + "".join(f"% {note}\n" for note in below),
+        "comparison.csv": written.csv_text(lines),
+        "comparison.tex": written.latex_table(together) + "".join(f"% {one}\n" for one in below),
     }
 
 
@@ -204,7 +189,7 @@ def print_report(report: Report, console: Console) -> None:
     """Print a table per pair of rows, and notes; fits 80 columns."""
     for table in _tables(report, raw=False):
         console.print(table.title, style="bold")
-        console.print(terminal_table(table))
+        console.print(written.terminal_table(table))
     for note in notes(report):
         console.print(note, style="dim")
 
@@ -214,7 +199,7 @@ def notes(report: Report) -> list[str]:
     count = sum(comparison.p_adjusted is not None for comparison in report.comparisons)
     families = max((comparison.paired.families for comparison in report.comparisons), default=0)
     how = {"count": count, "families": families, "seed": report.seed}
-    return [*_said("how", explained=EXPLAINED, **how), *report.notes]
+    return [*sentences("comparison", part="how", explained=EXPLAINED, **how), *report.notes]
 
 
 def _tables(report: Report, *, raw: bool = True) -> list[Table]:

@@ -112,7 +112,7 @@ def marks(found: Contrasts) -> dict[tuple[str, str], str]:
 
 def legend(found: Contrasts) -> list[str]:
     """The meaning of the marks that a table has."""
-    return _said("legend", found=found, explained=EXPLAINED, best=BEST)
+    return sentences("contrasts", part="legend", found=found, explained=EXPLAINED, best=BEST)
 
 
 def baseline_sentences(found: Contrasts) -> dict[str, str]:
@@ -120,14 +120,14 @@ def baseline_sentences(found: Contrasts) -> dict[str, str]:
     by_system: dict[str, list[Comparison]] = {}
     for one in found["baseline"]:
         by_system.setdefault(one.second, []).append(one)
-    return {name: _said("baseline", ones=ones)[0] for name, ones in by_system.items()}
+    how = {"part": "baseline", "p_text": p_text, "named": baseline_name}
+    return {name: sentences("contrasts", ones=ones, **how)[0] for name, ones in by_system.items()}
 
 
-def _said(part: str, **about: Any) -> list[str]:
-    """The sentences of a part of templates/contrasts.txt.j2."""
-    template = text_template("planner_ft.benchmark", "contrasts.txt.j2")
-    shown = {"part": part, "p_text": p_text, "named": baseline_name, **about}
-    return [*filter(str.strip, template.render(shown).split("\n"))]
+def sentences(template: str, **about: Any) -> list[str]:
+    """The lines of templates/TEMPLATE.txt.j2, each once, but blank ones."""
+    text = text_template("planner_ft.benchmark", f"{template}.txt.j2").render(about)
+    return [line for line in dict.fromkeys(text.split("\n")) if line.strip()]
 
 
 def contrast_notes(found: Contrasts, baseline_notes: Sequence[str] = ()) -> list[str]:

@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import MAIN, METRIC, METRICS, RIGHT
-from planner_ft.benchmark.contrasts import contrast_notes, marks
+from planner_ft.benchmark.contrasts import contrast_notes, marks, sentences
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.support.files import read_csv
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
-from planner_ft.support.templates import text_template
 from planner_ft.vocabulary.plans import Level
 
 if TYPE_CHECKING:
@@ -125,11 +124,7 @@ def notes(results: Results) -> list[str]:
         "systems": {one.system.candidate: one.system for one in results.rows}.values(),
         "trained_on": trained_on,
     }
-    template = text_template("planner_ft.benchmark", "notes.txt.j2")
-    of_data, of_rows = (
-        filter(str.strip, template.render(part=part, **about).split("\n"))
-        for part in ("data", "rows")
-    )
+    of_data, of_rows = (sentences("notes", part=part, **about) for part in ("data", "rows"))
     compared = contrast_notes(results.contrasts, results.baseline_notes)
     return list(dict.fromkeys([*of_data, *compared, *of_rows]))
 

@@ -17,16 +17,9 @@ from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.paired import MARKS, Comparison, difference_cell, verdict
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.statistics import Estimate
+from planner_ft.support import tables as written
 from planner_ft.support.resources import memory_size
-from planner_ft.support.tables import (
-    NOTHING,
-    Cell,
-    Table,
-    csv_table,
-    latex_table,
-    markdown_table,
-    row,
-)
+from planner_ft.support.tables import NOTHING, Cell, Table, row
 
 SHOWN_PAIRS, SHOWN_IDS, SHOWN_OTHERS = 15, 3, 10
 COUNTED = (
@@ -40,12 +33,12 @@ Figures = Mapping[str, Any]
 def render_tables(results: Results) -> dict[str, str]:
     """The texts of table.md, table.csv and table.tex."""
     shown, below = layout.lines(results), layout.notes(results)
-    texts = [markdown_table(table) for table in tables(results)]
+    texts = [written.markdown_table(table) for table in tables(results)]
     commented = "".join(f"% {note}\n" for note in below)
     return {
         "table.md": "\n".join([*texts, *(f"- {note}" for note in below)]) + "\n",
-        "table.csv": csv_table(layout.figures_table(shown)),
-        "table.tex": latex_table(layout.metric_table(MAIN, shown)) + commented,
+        "table.csv": written.csv_table(layout.figures_table(shown)),
+        "table.tex": written.latex_table(layout.metric_table(MAIN, shown)) + commented,
     }
 
 
