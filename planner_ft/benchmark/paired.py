@@ -22,15 +22,8 @@ ENUMERATED = 12
 """Differing families up to which all 2**12 swaps are tried instead of RESAMPLES random ones."""
 
 Verdict = Literal["better", "worse", "higher", "lower", "equal", "not told apart", "not compared"]
-MARKS: dict[Verdict, str] = {
-    "better": "▲",
-    "higher": "▲",
-    "worse": "▼",
-    "lower": "▼",
-    "equal": "≈",
-    "not told apart": "·",
-    "not compared": "",
-}
+MARKS: dict[Verdict, str] = {"better": "▲", "higher": "▲", "worse": "▼", "lower": "▼"}
+MARKS |= {"equal": "≈", "not told apart": "·", "not compared": ""}
 SIGNIFICANCE = 0.05
 MARGIN = 0.05
 """Two systems whose difference is known to be smaller than this, at 95 %, are called equal."""

@@ -1,4 +1,6 @@
-"""The charts of a test set: tables of figures, and how they are drawn. Words in figures.toml."""
+"""The charts of a test set: tables of figures, and how they are drawn. What each shows and how to
+read it stands in figures.toml.
+"""
 
 from __future__ import annotations
 
@@ -98,7 +100,6 @@ def _table(
 
 
 def _f1(tests: TestSet) -> Chart:
-    """F1 and latency, published models and baselines beside."""
     shown = lines(tests.results, beside=tests.beside)
     rows = [
         row(one.name, *(cell(*astuple(one.figure(key))) for key in F1), kind=one.kind)
@@ -132,7 +133,6 @@ def _matrix(
 
 
 def _failures(tests: TestSet) -> Chart:
-    """Wrong answers by kind and system, and the published analysis of the published test set."""
     found: dict[str, Mapping[str, int]] = {}
     for system in tests.results.rows:
         found |= {system.name: system.failures} if system.failures else {}
@@ -147,7 +147,6 @@ def _failures(tests: TestSet) -> Chart:
 
 
 def _stops(tests: TestSet) -> Chart:
-    """Where replayed plans stop, and for want of what."""
     found: dict[str, Counter[str]] = {}
     for system in tests.results.rows:
         found[system.name] = Counter()
@@ -168,7 +167,6 @@ def _seconds(scores: Mapping[str, Record]) -> dict[str, float]:
 
 
 def _latency(tests: TestSet) -> Chart:
-    """Median, 90th and 99th percentile of timed queries."""
     rows = []
     for system in tests.results.rows:
         if seconds := list(_seconds(tests.scores.get(system.key, {})).values()):
@@ -179,7 +177,6 @@ def _latency(tests: TestSet) -> Chart:
 
 
 def _planning(tests: TestSet) -> Chart:
-    """Seconds to plan a mission of m tasks with both agents, where a run has timed it."""
     rows = []
     for system in tests.results.rows:
         for entry in system.costs.get("planning") or []:
@@ -190,7 +187,6 @@ def _planning(tests: TestSet) -> Chart:
 
 
 def _latency_by_size(tests: TestSet) -> Chart:
-    """Mean time of a query by the number of tasks (steps) of the expected plan."""
     rows = []
     for system in tests.results.rows:
         timed: dict[int, list[float]] = {}
@@ -208,7 +204,6 @@ def _latency_by_size(tests: TestSet) -> Chart:
 
 
 def _reliability(tests: TestSet) -> Chart:
-    """Share of right plans by confidence, and what would be entirely honest."""
     rows = [
         row(system.name, cell(held), cell(share), str(n))
         for system in tests.results.rows
@@ -220,7 +215,6 @@ def _reliability(tests: TestSet) -> Chart:
 
 
 def _risk_coverage(tests: TestSet) -> Chart:
-    """Share of wrong plans among the surest, by their share of all, and in random order."""
     rows = []
     for system in tests.results.rows:
         found = system.breakdown.get("confidence", {})
@@ -234,7 +228,6 @@ def _risk_coverage(tests: TestSet) -> Chart:
 
 
 def _names(tests: TestSet, system: Row) -> Chart:
-    """Precision and recall per task or skill, the most frequent first."""
     found = system.breakdown.get("per_name") or []
     rows = []
     for line in sorted(found, key=lambda line: (-line["expected"], str(line["name"]))):

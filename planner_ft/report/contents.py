@@ -74,7 +74,7 @@ def section(tests: TestSet) -> Section:
     details = [metric_table(names, ours, corner=title) for title, names in rest]
     shown_before = {table.corner for table in extra}
     details += [one for one in detail_tables(results) if one.corner not in shown_before]
-    said = set(contrast_notes(results.contrasts))
+    compared, said = _differences(results), set(contrast_notes(results.contrasts))
     notes = [note for note in table_notes(results) if note not in said]
     return Section(
         tests,
@@ -82,9 +82,7 @@ def section(tests: TestSet) -> Section:
         main=named(metric_table(MAIN, shown), "main", "Systems", brackets),
         legend=" ".join(legend(results.contrasts)),
         extra=tuple(extra),
-        differences=tuple(
-            named(one, "differences", "Differences") for one in _differences(results)
-        ),
+        differences=tuple(named(one, "differences", "Differences") for one in compared),
         all_metrics=tuple(map(named, details)),
         charts=tuple(charts(tests)),
         per_system=tuple((name, of_system) for name, of_system in of_systems if of_system),
@@ -123,9 +121,8 @@ def failure_words(system: Row) -> str:
     return ", ".join(f"{kind} {-count}" for count, kind in order)
 
 
-def _differences(results: Results) -> Iterator[Table]:
-    rows = []
-    names = {one.key: one.name for one in (*results.rows, *results.baselines)}
+def _differences(results: Results) -> list[Table]:
+    rows, names = [], {one.key: one.name for one in (*results.rows, *results.baselines)}
     for one in (one for found in results.contrasts.values() for one in found):
         ends = [names.get(key) for key in (one.second, one.first)]
         if one.paired.difference.value is not None and all(ends):
@@ -134,7 +131,6 @@ def _differences(results: Results) -> Iterator[Table]:
             metric, verdict = METRIC[one.paired.metric].heading, f"{one.mark} {one.verdict}"
             rows.append(row(" against ".join(map(str, ends)), metric, *cells, verdict.strip()))
     caption = "First minus second, paired by sample, with its 95 % interval; p adjusted after Holm"
-    caption += " for each question."
-    if rows:
-        heads = ("Metric", "Difference", "p", "Verdict")
-        yield Table("Systems", heads, rows, texts=1, caption=caption)
+    heads = ("Metric", "Difference", "p", "Verdict")
+    table = Table("Systems", heads, rows, texts=1, caption=f"{caption} for each question.")
+    return [table] if rows else []

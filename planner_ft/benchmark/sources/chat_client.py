@@ -108,7 +108,7 @@ class ChatClient:
                 try:
                     came.put((at, function(item)))  # type: ignore[arg-type]
                 except BaseException as error:
-                    self.stop()
+                    self.stopped.set()
                     came.put(error)
             came.put(None)
 
@@ -125,7 +125,7 @@ class ChatClient:
                 else:
                     working -= 1
         except BaseException:
-            self.stop()
+            self.stopped.set()
             raise
         if failures:
             raise failures[0]
@@ -143,16 +143,12 @@ class ChatClient:
         found = value.get("data") if isinstance(value, dict) else None
         return [one for one in found if isinstance(one, dict)] if isinstance(found, list) else None
 
-    def stop(self) -> None:
+    def close(self) -> None:
         """No further attempts: open requests of other threads end with what they get."""
         self.stopped.set()
-
-    def close(self) -> None:
-        self.stop()
         self.http.close()
 
     def _exchange(self, body: dict[str, Any]) -> Reply:
-        """One attempt."""
         import httpx2
 
         started = time.perf_counter()

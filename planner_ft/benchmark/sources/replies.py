@@ -56,7 +56,10 @@ def read_reply(chunks: Iterable[bytes], started: float, *, streamed: bool) -> Re
         usage = usage if counted[0] is None else counted
         if streamed and not value.get("choices"):  # the last event holds the usage alone
             continue
-        choice = _choice(value)
+        given = value.get("choices")
+        if not isinstance(given, list) or not given or not isinstance(given[0], dict):
+            raise Passing(f"answered without choices: {excerpt(json.dumps(value))}")
+        choice = given[0]
         message = choice.get("delta") or {} if streamed else choice.get("message")
         if not isinstance(message, dict):
             raise Passing(f"answered without a message: {excerpt(json.dumps(value))}")
@@ -96,13 +99,6 @@ def _json_object(body: bytes) -> dict[str, Any]:
         kind = "an error" if isinstance(value, dict) else "no object"
         raise Passing(f"answered with {kind}: {excerpt(body)}")
     return value
-
-
-def _choice(value: dict[str, Any]) -> dict[str, Any]:
-    choices = value.get("choices")
-    if not isinstance(choices, list) or not choices or not isinstance(choices[0], dict):
-        raise Passing(f"answered without choices: {excerpt(json.dumps(value))}")
-    return choices[0]
 
 
 def _choices(value: Any) -> list[Choice] | None:
