@@ -15,7 +15,7 @@ from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.scoring import SampleScore, score_sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.confidence.calibration import KINDS, Calibration, Curve, log_features
-from planner_ft.confidence.parts import Kind, Part, from_json, parts
+from planner_ft.confidence.parts import Part, from_json, parts
 from planner_ft.planning.agents import silent
 from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support import files
@@ -25,8 +25,7 @@ from planner_ft.support.terminal import Report
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
-EVERY = ("lowest", "total", "margin", "overruled", "tokens")
-FEATURES: dict[Kind, tuple[str, ...]] = {"plan": EVERY, "entry": EVERY, "value": EVERY}
+FEATURES = ("lowest", "total", "margin", "overruled", "tokens")
 """What tells right parts from wrong ones, chosen on the development sets (docs/metrics.md)."""
 LEAST = 20  # answers below which nothing is fitted
 FOLDS = 5
@@ -85,7 +84,7 @@ def calibrate(
     manifest = build_manifest(
         "calibrate",
         seed=None,
-        configuration={"level": level, "features": FEATURES},
+        configuration={"level": level, "features": dict.fromkeys(KINDS, FEATURES)},
         inputs={str(path): path for path in data},
         agent=held_for,
         **calibration.manifest,
@@ -108,8 +107,8 @@ def fitted(
         known = f"{len(of_kind['plan'])} of {len(data.samples)} answers have log-probabilities"
         way = f"at least {LEAST} are needed: give more data, or another candidate"
         raise PlannerError(f"{data.path}: {known}; {way}")
-    curves = {kind: _curve(found, FEATURES[kind]) for kind, found in of_kind.items()}
-    figures = {kind: _held_out(found, FEATURES[kind]) for kind, found in of_kind.items()}
+    curves = {kind: _curve(found) for kind, found in of_kind.items()}
+    figures = {kind: _held_out(found) for kind, found in of_kind.items()}
     return Calibration(level, curves, {"n": len(of_kind["plan"]), "held_out": figures})
 
 
@@ -147,26 +146,22 @@ def _right_entries(
     return found
 
 
-def _table(judged: Sequence[Judged], names: Sequence[str]) -> tuple[list[list[float]], list[bool]]:
-    features = [log_features(one.part) for one in judged]
-    return [[row[name] for name in names] for row in features], [one.right for one in judged]
-
-
-def _curve(judged: Sequence[Judged], names: Sequence[str]) -> Curve:
+def _curve(judged: Sequence[Judged]) -> Curve:
     from sklearn.linear_model import LogisticRegression
 
-    table, right = _table(judged, names)
+    features, right = [log_features(one.part) for one in judged], [one.right for one in judged]
     share = sum(right) / len(right)
     if share in (0, 1):
         # Nothing to tell apart: Laplace's rule of succession.
         odds = (sum(right) + 1) / (len(right) - sum(right) + 1)
         return Curve({}, math.log(odds), len(right), share)
+    table = [[row[name] for name in FEATURES] for row in features]
     model = LogisticRegression(max_iter=1000).fit(table, right)
-    weights = dict(zip(names, map(float, model.coef_[0]), strict=True))
+    weights = dict(zip(FEATURES, map(float, model.coef_[0]), strict=True))
     return Curve(weights, float(model.intercept_[0]), len(right), share)
 
 
-def _held_out(judged: Sequence[Judged], names: Sequence[str]) -> dict[str, Any]:
+def _held_out(judged: Sequence[Judged]) -> dict[str, Any]:
     """The figures of parts by curves that were fitted on the other folds."""
     families = sorted({one.family for one in judged})
     fold = {family: place % FOLDS for place, family in enumerate(families)}
@@ -174,7 +169,7 @@ def _held_out(judged: Sequence[Judged], names: Sequence[str]) -> dict[str, Any]:
     for number in range(min(FOLDS, len(families))):
         inside = [one for one in judged if fold[one.family] == number]
         outside = [one for one in judged if fold[one.family] != number]
-        curve = _curve(outside or inside, names)
+        curve = _curve(outside or inside)
         found += [(curve.probability(one.part), one.right) for one in inside]
     figures = confidence_figures(*zip(*found, strict=True)) if found else {}
     return {name: value for name, value in figures.items() if name not in ("curve", "bins")}

@@ -123,7 +123,7 @@ class Units:
         """Wait for a process; returns why it failed."""
         unit, last, written = self.units[index], time.monotonic(), -1
         while True:
-            running, now = process.child.poll() is None, time.monotonic()
+            running, now = process.running(), time.monotonic()
             left = self._left(index, before, now - begun)
             self.report(State(index + 1, len(self.units), unit, step, left))
             if not running:
@@ -172,6 +172,9 @@ class Process:
                 process_group=0,
             )
 
+    def running(self) -> bool:
+        return self.child.poll() is None
+
     def end(self) -> None:
         """End it: politely, then for good."""
         self.child.terminate()
@@ -198,7 +201,7 @@ class Process:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self.child.poll() is None:
+        if self.running():
             self.end()
 
 

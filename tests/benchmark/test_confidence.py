@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.breakdown import confidence_figures
-from planner_ft.benchmark.calibrate import FEATURES, LEAST, fitted
+from planner_ft.benchmark.calibrate import LEAST, fitted
 from planner_ft.benchmark.samples import BenchData, Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.support.errors import PlannerError
@@ -109,7 +109,7 @@ def test_calibration_error_is_nothing_for_the_honest() -> None:
 def test_calibration_finds_the_doubt_in_every_part_that_has_it() -> None:
     data, lines = answers(90)
     found = fitted("mission", data, lines, USV)
-    assert set(found.curves) == set(FEATURES)
+    assert set(found.curves) == {"plan", "entry", "value"}
     assert (found.curves["plan"].n, found.curves["plan"].right) == (90, pytest.approx(2 / 3))
     # Title and centre are always right, the radius as often as the plan.
     assert found.curves["value"].n == 270
