@@ -29,8 +29,7 @@ from planner_ft.decoding.engine import Engine, decoding_threads
 from planner_ft.support.files import compact_json, read_jsonl, sha256_text, write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.outputs import parse_output
-from planner_ft.vocabulary.plans import LEVELS, Level
+from planner_ft.vocabulary.plans import LEVELS, Level, parse_output
 
 SEED = 77
 SETS = "data/{level}/*.jsonl", "eval/challenge/{level}*.jsonl"

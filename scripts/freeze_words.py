@@ -13,8 +13,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-from planner_ft.facts.lists import FOLDER
-from planner_ft.facts.words import known_words
+from planner_ft.facts.words import FOLDER, known_words
 
 
 def main(paths: list[str]) -> None:

@@ -19,7 +19,7 @@ from planner_ft.candidates.registry import STANDIN_KEY, Candidate, all_candidate
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, read_text, write_json, write_text
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.text import prompt_text
+from planner_ft.vocabulary.schema import prompt_text
 
 if TYPE_CHECKING:
     from tokenizers import Tokenizer

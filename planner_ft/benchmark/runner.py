@@ -23,7 +23,7 @@ from planner_ft.support.files import sha256_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.ranks import Ranks
 from planner_ft.support.terminal import Report
-from planner_ft.vocabulary.outputs import parse_output
+from planner_ft.vocabulary.plans import parse_output
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.sources.endpoint import EndpointSource

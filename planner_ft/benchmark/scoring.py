@@ -17,8 +17,7 @@ from planner_ft.confidence.parts import from_json, parts
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ROLES
-from planner_ft.vocabulary.outputs import parse_output
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, parse_output
 
 Value = float | bool | None  # A metric of one sample: None where the sample says nothing about it
 Values = dict[str, Value]

@@ -71,8 +71,12 @@ def vocabulary(o: Options) -> None:
     """Show the vocabulary, or write the schemas and the documentation page that derive from it."""
     from planner_ft.support.files import write_text
     from planner_ft.vocabulary import load_vocabulary
-    from planner_ft.vocabulary.schema import stale_schemas, write_schemas
-    from planner_ft.vocabulary.text import documentation_page, stale_page
+    from planner_ft.vocabulary.schema import (
+        documentation_page,
+        stale_page,
+        stale_schemas,
+        write_schemas,
+    )
 
     definition = load_vocabulary(o.vocabulary)
     if o.check:

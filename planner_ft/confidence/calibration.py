@@ -16,8 +16,7 @@ from planner_ft.confidence.parts import Choices, Kind, Part, parts
 from planner_ft.confidence.parts import Path as PartPath
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
-from planner_ft.vocabulary.outputs import parse_output
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, parse_output
 
 FORMAT, VERSION = "planner_ft confidence", 1
 KINDS: tuple[Kind, ...] = get_args(Kind)

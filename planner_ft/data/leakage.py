@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.facts.lists import SMALL
+from planner_ft.facts.words import SMALL
 from planner_ft.support.files import compact_json, sha256_text
 from planner_ft.vocabulary.plans import Level, named_entries
 

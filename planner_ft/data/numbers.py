@@ -14,8 +14,8 @@ from random import Random
 from typing import Any, TypeVar
 
 from planner_ft.facts.geometry import Point, tidy
-from planner_ft.facts.lists import COMPASS as POINTS
-from planner_ft.facts.lists import SMALL
+from planner_ft.facts.words import COMPASS as POINTS
+from planner_ft.facts.words import SMALL
 
 T = TypeVar("T")
 _FIELD = re.compile(r"\{(\w+)\}")

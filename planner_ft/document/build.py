@@ -1,4 +1,5 @@
-"""A plan document of a planned command, and everything that derives from the rest of a document.
+"""A plan document of a planned command, and everything that derives from the rest of a document;
+reading and writing it.
 
 A place that was filled in stands as `located` beside the parameters of its tasks.
 """
@@ -7,8 +8,10 @@ from __future__ import annotations
 
 import copy
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 from planner_ft.confidence.calibration import Judgement
@@ -20,6 +23,7 @@ from planner_ft.document.confidence import (
     plan_confidence,
     task_confidence,
 )
+from planner_ft.document.entered import short
 from planner_ft.document.limits import carried, with_words
 from planner_ft.document.ontology import check
 from planner_ft.document.sources import sources
@@ -29,16 +33,20 @@ from planner_ft.document.warnings import warnings
 from planner_ft.planning.essentials import asked, kept_additions, kept_defaults, question
 from planner_ft.planning.locations import OpenPlace, open_places
 from planner_ft.planning.result import Answer, Planned, PlannedTask
-from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.plans import canonical_parameters
-from planner_ft.vocabulary.schema import FORMAT, TASK_KEYS, VERSION, document_keys
+from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import read_json, write_json
+from planner_ft.vocabulary import Entry, Vocabulary, load_vocabulary
+from planner_ft.vocabulary.definition import bundled_vocabularies
+from planner_ft.vocabulary.plans import canonical_parameters, plan_problems, task_problems
+from planner_ft.vocabulary.schema import FORMAT, TASK_KEYS, VERSION, document_keys, frame_schema
 
-PlanDocument = dict[str, Any]
-"""A plan document (schemas/plan.schema.json), never changed in place."""
-DERIVED = ("waits_for", "asks", "sources")
-"""Keys of a task that follow from the rest."""
-LARGEST = 2**53 - 1
-"""Larger whole numbers have no exact form in RFC 8785 (I-JSON, RFC 7493)."""
+PlanDocument = dict[str, Any]  # a plan document (schemas/plan.schema.json), never changed in place
+DERIVED = ("waits_for", "asks", "sources")  # keys of a task that follow from the rest
+LARGEST = 2**53 - 1  # larger whole numbers have no exact form in RFC 8785 (I-JSON, RFC 7493)
+LARGEST_FILE = 64 * 2**20
+"""Bytes of a file that is read at most: a plan of 500 tasks has about 2 MB."""
+LONGEST_SHOWN = 200
+AS_WRITTEN = "take the file as `plannerft plan` or `plannerft review` wrote it"
 
 
 def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = None) -> PlanDocument:
@@ -163,16 +171,13 @@ def _ordered_task(
     return {**kept, "parameters": canonical_parameters(task["parameters"], known)}
 
 
-def without_derived(task: Mapping[str, Any]) -> dict[str, Any]:
+def without_derived(task: Entry) -> dict[str, Any]:
     """A task without what derives."""
     return {key: value for key, value in task.items() if key not in DERIVED}
 
 
-def _ordered(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+def _ordered(value: Entry, keys: Sequence[str]) -> dict[str, Any]:
     return {key: value[key] for key in keys if key in value}
-
-
-# ---------------------------------------------------------------- places
 
 
 def places_of(tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary) -> list[OpenPlace]:
@@ -195,9 +200,6 @@ def tasks_at(
     ]
 
 
-# ---------------------------------------------------------------- digest
-
-
 def canonical(value: Any) -> bytes:
     """The canonical form (RFC 8785); whole numbers beyond 2^53 - 1 as floating-point numbers."""
     import rfc8785
@@ -210,12 +212,12 @@ def sha256_canonical(value: Any) -> str:
     return hashlib.sha256(canonical(value)).hexdigest()
 
 
-def document_digest(document: Mapping[str, Any]) -> str:
+def document_digest(document: Entry) -> str:
     """The digest of a plan document: of all of it but the key `digest`."""
     return sha256_canonical({key: value for key, value in document.items() if key != "digest"})
 
 
-def altered(document: Mapping[str, Any]) -> bool:
+def altered(document: Entry) -> bool:
     """Whether a document was changed without a new digest, as by hand."""
     return document.get("digest") != document_digest(document)
 
@@ -228,3 +230,80 @@ def _exact(value: Any) -> Any:
     if isinstance(value, int) and not isinstance(value, bool) and abs(value) > LARGEST:
         return float(value)
     return value
+
+
+def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> PlanDocument:
+    """The document in a file, by default of the bundled vocabulary that it names.
+
+    A wrong digest is no error here: see `altered`. Raises PlannerError.
+    """
+    path = Path(path)
+    size = path.stat().st_size if path.is_file() else 0
+    if size > LARGEST_FILE:
+        problem = f"has {size} bytes, more than the {LARGEST_FILE} of any plan"
+        raise PlannerError(f"{path}: {problem}; {AS_WRITTEN}")
+    document = read_json(path)
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        way_out = f"write one with `plannerft plan COMMAND --out {path.name}`"
+        raise PlannerError(f"{path}: is no plan document; {way_out}")
+    if (found := document.get("version")) != VERSION:
+        problem = f"is of version {found!r}, and this program reads version {VERSION}"
+        raise PlannerError(f"{path}: {problem}; plan the command again")
+    vocabulary = vocabulary or vocabulary_of(document, path)
+    made = document.get("vocabulary")
+    named = made if isinstance(made, dict) else {}
+    if named.get("sha256") != vocabulary.sha256:
+        raise PlannerError(
+            f"{path}: was made with another vocabulary ({named.get('name')!r}, other content) than"
+            f" {vocabulary.name!r}; give its file with --vocabulary, or plan again"
+        )
+    if (wrong := document_problem(document, vocabulary)) is not None:
+        raise PlannerError(f"{path}: {wrong}; {AS_WRITTEN}")
+    return document
+
+
+def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:
+    """Where and why a value is no plan document, or None.
+
+    JSON Schema checks the frame alone; plan checks of the tasks take a fraction of its time.
+    """
+    from jsonschema.exceptions import best_match
+
+    found = best_match(_frame().iter_errors(document))
+    if found is not None:
+        where = found.json_path.removeprefix("$").lstrip(".") or "the document"
+        return f"{where}: {short(found.message, LONGEST_SHOWN)}"
+    for where, part in (("tasks", document), ("proposed.tasks", document["proposed"])):
+        for index, task in enumerate(part["tasks"]):
+            steps = {"skill_sequence": task["skill_sequence"] or []}
+            problems = task_problems(task, vocabulary)
+            problems += plan_problems("task", steps, vocabulary, strict=True)
+            if problems:
+                return f"{where}[{index}]: {short(problems[0], LONGEST_SHOWN)}"
+    return None
+
+
+def vocabulary_of(document: PlanDocument, path: Path | str) -> Vocabulary:
+    """The bundled vocabulary that a document names. Raises PlannerError when there is none."""
+    made = document.get("vocabulary")
+    name = made.get("name") if isinstance(made, dict) else None
+    if not isinstance(name, str):
+        raise PlannerError(f"{path}: names no vocabulary; {AS_WRITTEN}")
+    if name not in bundled_vocabularies():
+        problem = f"was made with the vocabulary {name!r}, which is not bundled"
+        raise PlannerError(f"{path}: {problem}; give its file with --vocabulary")
+    return load_vocabulary(name)
+
+
+def write_document(path: Path | str, document: PlanDocument) -> PlanDocument:
+    """Write a document with its digest, atomically; returns it. Raises PlannerError."""
+    written = {**document, "digest": document_digest(document)}
+    write_json(path, written)
+    return written
+
+
+@cache
+def _frame() -> Any:
+    import jsonschema
+
+    return jsonschema.Draft202012Validator(frame_schema())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from planner_ft.document.structures import (
@@ -22,16 +22,15 @@ from planner_ft.document.track import Pen, Point, circle_of, point_of
 from planner_ft.facts.geometry import offset
 from planner_ft.facts.places import read_bearings
 from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Entry, Vocabulary
 
-MOST_WALLS = 60
-"""Circles by which a face is kept clear of."""
+MOST_WALLS = 60  # circles by which a face is kept clear of
 MOST_ROUNDS = 30
 Step = dict[str, Any]
 Marks = list[dict[str, Any]]
 
 
-def cleared(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     """The tasks of a plan with steps that keep clear of its structures, where there is a way."""
     tasks: list[dict[str, Any]] = list(document["tasks"])
     known = structures(document, vocabulary)

@@ -15,8 +15,7 @@ from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 
 Entry = dict[str, Any]
-LEVELS = ("unsure", "check", "sure")
-"""The least sure first."""
+LEVELS = ("unsure", "check", "sure")  # the least sure first
 LETTERS = "abc"
 
 
@@ -108,9 +107,6 @@ def kept_confidence(task: Mapping[str, Any], proposed: Mapping[str, Any]) -> dic
     if task.get("stale"):
         found.pop("skills", None)
     return {name: one for name, one in found.items() if one}
-
-
-# ---------------------------------------------------------------- for readers
 
 
 def confidence_lines(document: Mapping[str, Any]) -> Iterator[str]:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import functools
 import re
-import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_text
+from planner_ft.support.files import read_toml
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.definition import ONTOLOGY
 
 ENGLISH = Path(__file__).parent / "english.toml"
-GAP = r"\W{1,3}(?:[\w'’-]{1,30}\W{1,3}){0,3}?"
-"""The words that ... stands for: up to three."""
+GAP = r"\W{1,3}(?:[\w'’-]{1,30}\W{1,3}){0,3}?"  # the words that ... stands for: up to three.
 CLAUSE_END = re.compile(
     r"(?<!\d)[.,](?=\s|$)|[.,](?=\s+[^\d\s−–-]|\s*$)|[;:!?\n]|\b(?:then|afterwards|after"
     r" that|and|but)\b",
@@ -67,7 +65,7 @@ class Language:
 @functools.lru_cache(maxsize=16)
 def language(vocabulary: Vocabulary) -> Language:
     """The words for a vehicle. Raises PlannerError that lists what is wrong with its ontology."""
-    english = tomllib.loads(read_text(ENGLISH))
+    english = read_toml(ENGLISH)
     questions = english.pop("questions")
     own = vocabulary.beside(ONTOLOGY)
     problems = list(_problems(own, vocabulary))
@@ -139,9 +137,6 @@ def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
 def _are_words(value: Any) -> bool:
     words = value if isinstance(value, list) else []
     return bool(words) and all(isinstance(word, str) and word.strip() for word in words)
-
-
-# ---------------------------------------------------------------- clauses
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import read_clauses
@@ -16,15 +16,14 @@ from planner_ft.facts import WAYPOINT, Facts, Span, read
 from planner_ft.planning.frame import frame_of
 from planner_ft.planning.limits import holds_for, limits_in, time_left
 from planner_ft.planning.locations import ARTICLE
-from planner_ft.vocabulary import Parameter, Vocabulary
+from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.limits import Limit, Limits, load_limits
 
 UNITS = {"distance": "m", "speed": "m/s", "duration": "s"}
-MOVING = ("go", "arc", "drift")
-"""Motions in which a filter has something to do."""
+MOVING = ("go", "arc", "drift")  # motions in which a filter has something to do
 
 
-def limits_of(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+def limits_of(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     """The limits of a plan document as its key `limits` has them, without the words."""
     known = load_limits(vocabulary)
     found = limits_in(list(document.get("constraints", ())), known)
@@ -32,7 +31,7 @@ def limits_of(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[
     return [_entry(limit, known, document["tasks"]) for limit in placed]
 
 
-def _placed(limit: Limit, document: Mapping[str, Any], vocabulary: Vocabulary) -> Limit:
+def _placed(limit: Limit, document: Entry, vocabulary: Vocabulary) -> Limit:
     """The limit; one that names a thing alone with the place of the one thing that ends with this
     name: of the command, the chart, or what the operator has located.
     """
@@ -52,7 +51,7 @@ def _bare(name: str) -> str:
     return ARTICLE.sub("", name.strip()).casefold()
 
 
-def with_words(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+def with_words(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     """The limits of a plan document, each with the words of the command that it came from."""
     frame = frame_of(document)
     found = limits_of(document, vocabulary)
@@ -80,7 +79,7 @@ def _entry(limit: Limit, known: Limits, tasks: list[dict[str, Any]]) -> dict[str
     return entry
 
 
-def _words(limit: Mapping[str, Any], command: str, vocabulary: Vocabulary) -> Span | None:
+def _words(limit: Entry, command: str, vocabulary: Vocabulary) -> Span | None:
     """The clauses of the command that have the values of a limit."""
     facts = read(command)
     spans = list(_mentions(limit["values"], facts))
@@ -94,7 +93,7 @@ def _words(limit: Mapping[str, Any], command: str, vocabulary: Vocabulary) -> Sp
     return start + len(text) - len(text.lstrip(" ,;")), end - (len(text) - len(text.rstrip(" ,;")))
 
 
-def _mentions(values: Mapping[str, Any], facts: Facts) -> Iterator[Span]:
+def _mentions(values: Entry, facts: Facts) -> Iterator[Span]:
     for name, value in values.items():
         if name in UNITS:
             yield from facts.evidence(value, Parameter(name, "number", UNITS[name])).spans[:1]
@@ -107,10 +106,7 @@ def _mentions(values: Mapping[str, Any], facts: Facts) -> Iterator[Span]:
             yield at, at + len(value)
 
 
-# ---------------------------------------------------------------- filters
-
-
-def carried(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Any]]:
+def carried(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     """The tasks of a plan with every limit that has a filter in each step that moves or has one."""
     known = load_limits(vocabulary)
     limits = [limit for limit in limits_of(document, vocabulary) if "filter" in limit]
@@ -149,18 +145,14 @@ def without_filters(tasks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     return done
 
 
-def moves(step: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
+def moves(step: Entry, vocabulary: Vocabulary) -> bool:
     """Whether a step moves the vehicle."""
     motion = vocabulary.motion.of(step["navigation_skill"]["name"])
     return motion is not None and motion.kind in MOVING
 
 
 def _filter(
-    number: int,
-    step: dict[str, Any],
-    limit: Mapping[str, Any],
-    known: Limits,
-    vocabulary: Vocabulary,
+    number: int, step: dict[str, Any], limit: Entry, known: Limits, vocabulary: Vocabulary
 ) -> Iterable[dict[str, Any]]:
     """Have a step keep a limit by its filter; the mark where that changes it."""
     kind, name = known[limit["kind"]], limit["filter"]

@@ -9,20 +9,16 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planner_ft.document.language import Clause, Language, language, read_clauses
+from planner_ft.document.language import Language, language, read_clauses
 from planner_ft.facts import Position, Span
-from planner_ft.facts.places import read_positions
-from planner_ft.facts.rows import positions_of, rows_of
+from planner_ft.facts.places import read_positions, rows_of, written_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 
-LONGEST_NAME = 7
-"""Words of a noun phrase that are looked at."""
-LONGEST_PIECE = 1500
-"""Characters that are read at once."""
+LONGEST_NAME = 7  # words of a noun phrase that are looked at
+LONGEST_PIECE = 1500  # characters that are read at once
 CLOSED = ("]", ")")
-FARTHEST = 40
-"""Characters between a name and its coordinates."""
+FARTHEST = 40  # characters between a name and its coordinates
 _END = re.compile(r"[.!?;]\s+|\n+")
 _WORD = re.compile(r"\s+([^\W_][\w'’-]*)")
 _LINK = re.compile(r"\s+(?:of|with)\s+(?=\w)")
@@ -40,44 +36,31 @@ _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 def check(command: str, vocabulary: Vocabulary) -> dict[str, Any]:
     """{"elements": [{"element", "start", "end", "text"}], "missing", "questions"} of a command."""
-    spoken, clauses = language(vocabulary), read_clauses(command, vocabulary)
-    parts = (_objectives(clauses, spoken), _targets(command, spoken), _sensors(clauses, spoken))
-    spans = (*parts, _constraints(clauses, spoken))
-    found = {element: _merged(some) for element, some in zip(ELEMENTS, spans, strict=True)}
+    spoken = language(vocabulary)
+    found: dict[str, list[Span]] = {element: [] for element in ELEMENTS}
+    found["target"] += _targets(command, spoken)
+    instructions = [ask.said for ask in spoken.asks]
+    instructions += [spoken.words["verb"], spoken.words["impossible"]]
+    for clause in read_clauses(command, vocabulary):
+        for words in instructions:
+            found["objective"] += clause.spans(words)
+        # Words for sensors and data count also where they themselves rule something out.
+        for match in spoken.sensors.finditer(clause.text):
+            start, end = clause.start + match.start(), clause.start + match.end()
+            if clause.wants(start) or spoken.words["exclusion"].match(match[0]):
+                found["sensor"].append((start, end))
+        if limit := spoken.words["constraint"].search(clause.text):
+            end = clause.start + len(clause.text.rstrip())
+            found["constraint"].append((clause.start + limit.start(), end))
     elements = [
         {"element": element, "start": start, "end": end, "text": command[start:end]}
         for start, end, element in sorted(
-            (*span, name) for name in ELEMENTS for span in found[name]
+            (*span, name) for name in ELEMENTS for span in _merged(found[name])
         )
     ]
     missing = [element for element in ELEMENTS if not found[element]]
     questions = [spoken.questions[element] for element in missing]
     return {"elements": elements, "missing": missing, "questions": questions}
-
-
-def _objectives(clauses: Iterable[Clause], spoken: Language) -> Iterator[Span]:
-    """The words that ask for a task, and verbs that an instruction begins with."""
-    asked = [ask.said for ask in spoken.asks]
-    for clause in clauses:
-        for words in (*asked, spoken.words["verb"], spoken.words["impossible"]):
-            yield from clause.spans(words)
-
-
-def _sensors(clauses: Iterable[Clause], spoken: Language) -> Iterator[Span]:
-    """Words for sensors and data, also those that themselves rule something out."""
-    for clause in clauses:
-        for match in spoken.sensors.finditer(clause.text):
-            start, end = clause.start + match.start(), clause.start + match.end()
-            if clause.wants(start) or spoken.words["exclusion"].match(match[0]):
-                yield start, end
-
-
-def _constraints(clauses: Iterable[Clause], spoken: Language) -> Iterator[Span]:
-    """From the words that set a limit to the end of their clause."""
-    for clause in clauses:
-        match = spoken.words["constraint"].search(clause.text)
-        if match:
-            yield clause.start + match.start(), clause.start + len(clause.text.rstrip())
 
 
 def _targets(command: str, spoken: Language) -> Iterator[Span]:
@@ -114,7 +97,7 @@ def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Posit
     spoken = language(vocabulary)
     named = sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])
     several = dict[int, str]()
-    for row in rows_of(text, positions_of(text)):
+    for row in rows_of(text, written_positions(text)):
         words = _words_before(text, row[0].start, named)
         several |= {place.start: words for place in row[1:] if words.endswith("s")}
     for place in read_positions(text):

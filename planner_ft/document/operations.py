@@ -22,8 +22,7 @@ from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary import plans as rules
 from planner_ft.vocabulary.plans import step_skills
 
-Entry = dict[str, Any]
-"""A task of a plan document, a step or a skill."""
+Entry = dict[str, Any]  # a task of a plan document, a step or a skill
 MOST_TASKS = 1000
 NOTHING: Mapping[str, Any] = {}
 
@@ -71,9 +70,6 @@ class Draft:
         used = {name for task in self.tasks for name in task.get("located", {}).values()}
         located = self.document["located"].items()
         self.document["located"] = {name: place for name, place in located if name in used}
-
-
-# ---------------------------------------------------------------- the plan
 
 
 def locate(draft: Draft, name: str, position: list[Any]) -> None:
@@ -166,9 +162,6 @@ def replace(draft: Draft, tasks: list[Any]) -> None:
     draft.changed()
 
 
-# ---------------------------------------------------------------- a task
-
-
 def parameter(draft: Draft, task: Entry, name: str, value: Any = None) -> None:
     """A value; None takes it out."""
     before = task["parameters"].get(name)
@@ -201,9 +194,6 @@ def title(draft: Draft, task: Entry, title: str) -> None:
 def prompt(draft: Draft, task: Entry, text: str) -> None:
     task["task_prompt"] = entered.prompt_text(text)
     draft.changed(task)
-
-
-# ---------------------------------------------------------------- skills
 
 
 def skills(
@@ -270,9 +260,6 @@ def drop(_draft: Draft, task: Entry, name: str, step: Any = None) -> None:
         raise PlannerError(f"{where}: {problem}; a navigation skill goes with its step alone")
     for found in lists:
         found[:] = [one for one in found if one["name"] != name]
-
-
-# ---------------------------------------------------------------- parts
 
 
 def _new_id(document: PlanDocument) -> str:

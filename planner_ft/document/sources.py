@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 from planner_ft.document.entered import short
 from planner_ft.document.language import language
 from planner_ft.facts import Evidence, Input, Span, read_input
 from planner_ft.planning.frame import frame_of
-from planner_ft.vocabulary import Parameter, Vocabulary
+from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 
+UNREAD = "the command could not be read with certainty"
 Source = dict[str, Any]
 """{"kind": one of SOURCES, "spans": [[start, end], ...] of the command, "note"}."""
 
 
-def sources(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[str, Source]]:
+def sources(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Source]]:
     """Per task, in order, {parameter: source}; the mention nearest to the task's others."""
     frame = frame_of(document)
     command = read_input({"prompt": frame.spoken}, vocabulary)
@@ -32,7 +32,7 @@ def sources(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[dict[st
 
 
 def _of_task(
-    task: Mapping[str, Any], proposed: Mapping[str, Any] | None, command: Input, place: int
+    task: Entry, proposed: Entry | None, command: Input, place: int
 ) -> tuple[dict[str, Source], int]:
     """The sources of a task's parameters, and where in the command the task is spoken of."""
     known = command.vocabulary.task[task["title"]].by_name
@@ -56,15 +56,16 @@ def _of_task(
         if found:
             nearest = min(found, key=lambda spans: abs(spans[0][0] - anchor))
             fixed[name] = _from("command", nearest)
+        elif open_values[name].given:
+            fixed[name] = _from("command")
         else:
-            fixed[name] = _without_words(open_values[name])
+            unread = open_values[name].given is None
+            fixed[name] = _from("model", note=UNREAD if unread else "the command does not say it")
     starts = [source["spans"][0][0] for source in fixed.values() if source.get("spans")]
     return {name: fixed[name] for name in task["parameters"]}, max(starts, default=place)
 
 
-def _edited(
-    task: Mapping[str, Any], name: str, proposed: Mapping[str, Any] | None
-) -> Source | None:
+def _edited(task: Entry, name: str, proposed: Entry | None) -> Source | None:
     """The source of a value that the model did not propose."""
     if name in task.get("defaults", {}):
         return _from("vehicle", note="the vehicle's value where none is stated")
@@ -99,14 +100,6 @@ def _by_rule(value: Any, parameter: Parameter, evidence: Evidence, command: Inpu
     if evidence.kind == "derived" and not evidence.spans:
         return _from("derived", note="follows from what the command says")
     return None
-
-
-def _without_words(evidence: Evidence) -> Source:
-    """The source of a value of which no words were found."""
-    if evidence.given:
-        return _from("command")
-    unread = "the command could not be read with certainty"
-    return _from("model", note=unread if evidence.given is None else "the command does not say it")
 
 
 def _from(kind: str, spans: tuple[Span, ...] = (), note: str = "") -> Source:

@@ -11,16 +11,15 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from planner_ft.document.limits import limits_of
 from planner_ft.document.ontology import is_thing, named_places, stands
-from planner_ft.document.track import Leg, Point, TaskEntry, circle_of, place_of, point_of, shown
+from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.planning.frame import frame_of
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Entry, Vocabulary
 
 LINE = "line"
 ROUND, OVER = ("orbit", "square"), ("lawnmower", LINE)
@@ -29,15 +28,12 @@ FACING = ("sweep", "pass")
 """Patterns of tasks that look at the structure that the vehicle has gone to."""
 FOLLOWING = "follow"
 """The pattern of a task that goes up to its place and no closer than its filters let it."""
-SAME = 0.6
-"""Metres within which a waypoint is a structure itself."""
+SAME = 0.6  # metres within which a waypoint is a structure itself
 MARGIN = 0.5
 """Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
-CORNERS = 8
-"""Waypoints of a full way round a structure."""
+CORNERS = 8  # waypoints of a full way round a structure
 MOVING = ("go", "arc")
-Allowed = Callable[[Point, Point], bool]
-"""Whether a straight leg may be gone."""
+Allowed = Callable[[Point, Point], bool]  # whether a straight leg may be gone
 
 
 @dataclass(frozen=True)
@@ -65,7 +61,7 @@ class Structure:
         return [(x + radius * math.sin(one), y + radius * math.cos(one)) for one in angles]
 
 
-def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Structure]:
+def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
     """The known structures of a plan, each with the stand-off that is stated or the vehicle's."""
     own = (document.get("vehicle") or {}).get("stand_off", STAND_OFF)
     least, kept, named = 0.0, dict[Point, float](), dict[Point, str]()
@@ -117,7 +113,7 @@ def structures(document: Mapping[str, Any], vocabulary: Vocabulary) -> list[Stru
     ]
 
 
-def _margin(task: TaskEntry, vocabulary: Vocabulary) -> float:
+def _margin(task: Entry, vocabulary: Vocabulary) -> float:
     """The largest distance that a filter of a task keeps from obstacles, 0 for none."""
     filters = [own for step in task.get("skill_sequence") or () for own in step["filter_skills"]]
     motions = [(vocabulary.motion.of(own["name"]), own["parameters"]) for own in filters]
@@ -126,7 +122,7 @@ def _margin(task: TaskEntry, vocabulary: Vocabulary) -> float:
 
 
 def close_legs(
-    document: Mapping[str, Any], legs: Sequence[Leg], vocabulary: Vocabulary
+    document: Entry, legs: Sequence[Leg], vocabulary: Vocabulary
 ) -> Iterator[tuple[str, Structure, float]]:
     """(task, structure, metres) of every leg that comes too close; docking may, where the berth
     lies as close.
@@ -152,7 +148,7 @@ def close_legs(
                 yield leg.task, structure, nearest
 
 
-def fence(document: Mapping[str, Any], vocabulary: Vocabulary) -> Allowed:
+def fence(document: Entry, vocabulary: Vocabulary) -> Allowed:
     """Whether a leg stays inside the plan's fences and outside of its closed areas."""
     limits = limits_of(document, vocabulary)
     inside = [limit["values"]["polygon"] for limit in limits if limit["kind"] == "fence"]
@@ -173,13 +169,13 @@ def fence(document: Mapping[str, Any], vocabulary: Vocabulary) -> Allowed:
     return stays
 
 
-def berth(task: TaskEntry, vocabulary: Vocabulary) -> Point | None:
+def berth(task: Entry, vocabulary: Vocabulary) -> Point | None:
     """Where a task docks; None for one that does not."""
     known = vocabulary.task.get(task["title"])
     return place_of(task, vocabulary) if known is not None and known.docks else None
 
 
-def runs_along(task: TaskEntry, vocabulary: Vocabulary) -> bool:
+def runs_along(task: Entry, vocabulary: Vocabulary) -> bool:
     """Whether a task passes along a face, close to it on purpose."""
     known = vocabulary.task.get(task["title"])
     return known is not None and known.pattern == "pass"

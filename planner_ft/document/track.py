@@ -7,22 +7,18 @@ say. The vehicle starts at home, bow north, and goes straight; wind and obstacle
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from planner_ft.planning.locations import is_open
-from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.motion import Motion
+from planner_ft.vocabulary import Entry, Vocabulary
+from planner_ft.vocabulary.definition import Motion
 
 Point = tuple[float, float]
-TaskEntry = Mapping[str, Any]
-"""A task of a plan document."""
 LegKind = Literal["go", "arc", "hold", "drift", "turn"]
-ARC_STEP = 10.0
-"""Degrees between the points of an arc."""
-MOST_TURNS = 10
-"""Turns of one arc that are drawn; more lie on them."""
+ARC_STEP = 10.0  # degrees between the points of an arc
+MOST_TURNS = 10  # turns of one arc that are drawn; more lie on them
 
 
 @dataclass(frozen=True)
@@ -88,9 +84,9 @@ class Track:
         return next((leg.points[-1] for leg in reversed(self.legs) if leg.points), home)
 
 
-def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
+def track(document: Entry, vocabulary: Vocabulary) -> Track:
     """The track of a plan document."""
-    tasks: Sequence[TaskEntry] = document["tasks"]
+    tasks: Sequence[Entry] = document["tasks"]
     pen = Pen(vocabulary, document.get("vehicle") or {})
     for task in tasks:
         pen.draw(task)
@@ -99,7 +95,7 @@ def track(document: Mapping[str, Any], vocabulary: Vocabulary) -> Track:
     return Track(tuple(pen.legs), *shapes, tuple(pen.open), pen.here)
 
 
-def estimate(document: Mapping[str, Any], path: Track, home: Point = (0.0, 0.0)) -> dict[str, Any]:
+def estimate(document: Entry, path: Track, home: Point = (0.0, 0.0)) -> dict[str, Any]:
     """Sums of what is known: {"length" in metres, "seconds", "open": tasks that lack a part}.
 
     `away` is how far from home the plan ends, where that is known and not home.
@@ -114,21 +110,21 @@ def estimate(document: Mapping[str, Any], path: Track, home: Point = (0.0, 0.0))
     }
 
 
-def place_of(task: TaskEntry, vocabulary: Vocabulary) -> Point | None:
+def place_of(task: Entry, vocabulary: Vocabulary) -> Point | None:
     """Where a task takes place; None where it has no place, or one that is not known."""
     known = vocabulary.task.get(str(task["title"]))
     value = task["parameters"].get(known.position_parameter) if known else None
     return None if value is None or tuple(value) == vocabulary.unresolved else point_of(value)
 
 
-def circle_of(task: TaskEntry, vocabulary: Vocabulary) -> tuple[Point, float] | None:
+def circle_of(task: Entry, vocabulary: Vocabulary) -> tuple[Point, float] | None:
     """The circle that a task keeps: its centre and its radius."""
     circle, center = vocabulary.motion.standoff(task["title"]), place_of(task, vocabulary)
     radius = task["parameters"].get(circle.radius) if circle else None
     return (center, float(radius)) if center and radius else None
 
 
-def stated(task: TaskEntry, unit: str, vocabulary: Vocabulary) -> dict[str, Any]:
+def stated(task: Entry, unit: str, vocabulary: Vocabulary) -> dict[str, Any]:
     """The values in a unit that the parameters of a task state, by name."""
     known, given = vocabulary.task.get(task["title"]), task["parameters"]
     names = [item.name for item in (known.parameters if known else ()) if item.unit == unit]
@@ -138,7 +134,7 @@ def stated(task: TaskEntry, unit: str, vocabulary: Vocabulary) -> dict[str, Any]
 class Pen:
     """Draws tasks from `here` (None: not known), with `heading` in degrees from north."""
 
-    def __init__(self, vocabulary: Vocabulary, vehicle: Mapping[str, Any]) -> None:
+    def __init__(self, vocabulary: Vocabulary, vehicle: Entry) -> None:
         self.vocabulary, self.vehicle = vocabulary, vehicle
         self.here: Point | None = vocabulary.home
         self.heading = 0.0
@@ -148,7 +144,7 @@ class Pen:
         self._speed: float | None = None
         self._center: Point | None = None
 
-    def draw(self, task: TaskEntry) -> None:
+    def draw(self, task: Entry) -> None:
         """Add the legs of a task, or note that it is open."""
         self.begin(task)
         known, place = self.vocabulary.task.get(task["title"]), place_of(task, self.vocabulary)
@@ -164,7 +160,7 @@ class Pen:
             self._leave_open()
             self.here = None if known is None or known.leaves else place or self.here
 
-    def begin(self, task: TaskEntry) -> None:
+    def begin(self, task: Entry) -> None:
         """Take over the speed and the centre of a task."""
         speeds = stated(task, "m/s", self.vocabulary).values()
         self._speed = next(filter(None, speeds), self.vehicle.get("cruise_speed"))
@@ -172,7 +168,7 @@ class Pen:
         self._center = place_of(task, self.vocabulary) if circle else None
         self._at = (task["id"], 0, "")
 
-    def step(self, number: int, skill: Mapping[str, Any]) -> None:
+    def step(self, number: int, skill: Entry) -> None:
         """Add the leg of a navigation skill, in the step of this number (from 0)."""
         self._at = (self._at[0], number, skill["name"])
         motion, given = self.vocabulary.motion.of(skill["name"]), skill["parameters"]
@@ -222,7 +218,7 @@ class Pen:
         self._move("arc", points, approach + math.radians(abs(angle)) * radius)
         self.here, self.heading = curve[-1], (start + angle + side) % 360
 
-    def _turn(self, motion: Motion, given: Mapping[str, Any]) -> None:
+    def _turn(self, motion: Motion, given: Entry) -> None:
         heading = self.heading + (by := _number(motion.value("angle", given), 0.0))
         if motion.kind == "turn-to":
             heading = _number(motion.value("heading", given), self.heading)
@@ -268,7 +264,7 @@ def _number(value: Any, otherwise: float) -> float:
     return otherwise if value is None else float(value)
 
 
-def _circles(tasks: Sequence[TaskEntry], vocabulary: Vocabulary) -> Iterator[Circle]:
+def _circles(tasks: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Circle]:
     for task in tasks:
         standoff, given = vocabulary.motion.standoff(task["title"]), task["parameters"]
         center = place_of(task, vocabulary)
@@ -276,7 +272,7 @@ def _circles(tasks: Sequence[TaskEntry], vocabulary: Vocabulary) -> Iterator[Cir
             yield Circle(task["id"], center, given[standoff.radius], given.get(standoff.arc or ""))
 
 
-def _boundaries(tasks: Sequence[TaskEntry], vocabulary: Vocabulary) -> Iterator[Boundary]:
+def _boundaries(tasks: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Boundary]:
     for task in tasks:
         for number, step in enumerate(task.get("skill_sequence") or ()):
             for skill in step["filter_skills"]:
@@ -286,7 +282,7 @@ def _boundaries(tasks: Sequence[TaskEntry], vocabulary: Vocabulary) -> Iterator[
                     yield Boundary(task["id"], number, tuple(map(point_of, corners)))
 
 
-def _targets(document: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[Target]:
+def _targets(document: Entry, vocabulary: Vocabulary) -> Iterator[Target]:
     tasks = document["tasks"]
     for place in document.get("open_places", ()):
         yield Target(place["name"], None, tasks[place["tasks"][0] - 1]["id"])

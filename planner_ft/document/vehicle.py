@@ -19,8 +19,7 @@ UNITS = {
     "orbit_angle": "degrees",
     "stand_off": "m",
 }
-STAND_OFF = 10.0
-"""Metres kept from a structure where nothing else is said."""
+STAND_OFF = 10.0  # metres kept from a structure where nothing else is said
 LARGEST = 1e9
 FULL_CIRCLE = 360
 

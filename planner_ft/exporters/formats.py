@@ -22,7 +22,7 @@ from planner_ft.exporters.ledger import Path as Place
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.motion import Motion
+from planner_ft.vocabulary.definition import Motion
 
 GROUP = "planner_ft.formats"
 DRAFT = "DRAFT - NOT APPROVED"

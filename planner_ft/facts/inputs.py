@@ -11,23 +11,21 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from planner_ft.facts import derived, places, reading
+from planner_ft.facts import geometry as derived
+from planner_ft.facts import places, reading
 from planner_ft.facts.geometry import Point
-from planner_ft.facts.lists import MULTIPLES, UNITS, WORDS
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import Position, read_positions
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
 from planner_ft.facts.together import Number
 from planner_ft.facts.units import base_of, converted, named
-from planner_ft.facts.words import missing_words, normalised, words
+from planner_ft.facts.words import MULTIPLES, UNITS, WORDS, missing_words, normalised, words
 from planner_ft.vocabulary import Parameter, Task, Vocabulary
 
 MOST_LENGTHS, MOST_PLACES = 9, 12
 """Stated lengths and places up to which waypoints are derived."""
-MOST_WORKED = 2000
-"""Places that are worked out from those of a command."""
-SIDES = ("width", "length")
-"""Parameters that an area between two places has."""
+MOST_WORKED = 2000  # places that are worked out from those of a command
+SIDES = ("width", "length")  # parameters that an area between two places has
 _UNREAD_SHAPES = re.compile(rf"\b(?:{'|'.join(WORDS['unread_shapes'])})s?\b", re.IGNORECASE)
 
 
@@ -180,8 +178,6 @@ class Input:
             return Evidence("derived")
         # Any waypoint may be meant where the geometry cannot be read.
         return UNREAD if (self.facts.loose if before is None else not self.ground) else found
-
-    # ------------------------------------------------------------ parameters of the task
 
     def _is_own(self, value: Any, parameter: Parameter, tolerance: float) -> bool:
         if parameter.type in ("number", "integer"):

@@ -1,19 +1,20 @@
-"""The numbers of a text with their units: "four minutes" is 240 s, "a metre and a half" 1.5 m."""
+"""The numbers of a text with their units: "four minutes" is 240 s, "a metre and a half" 1.5 m, and
+the turns that it speaks of.
+"""
 
 from __future__ import annotations
 
 import functools
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from planner_ft.facts.lists import DIGITS, FRACTIONS, SPOKEN, TIMES, UNITS, WORDS
+from planner_ft.facts import words as lists
 from planner_ft.facts.numerals import AND, NUMERALS, Row
 from planner_ft.facts.together import (
     AS_BEFORE,
     BARE,
-    BY,
     REREAD,
     WRITTEN,
     Number,
@@ -21,15 +22,13 @@ from planner_ft.facts.together import (
     with_shared_units,
 )
 from planner_ft.facts.units import base_of, named
-from planner_ft.facts.words import edit_distance, is_known
+from planner_ft.facts.words import UNITS, WORDS, is_known
 
 THOROUGH = 6000
 """Characters of a text whose misspelt words are put right; what follows is read as it stands."""
-CHOICES = range(2)
-"""Words that a misspelt one can be, and that are tried."""
+CHOICES = range(2)  # words that a misspelt one can be, and that are tried
 DAY = 86400
-MOST_TIMES = 5
-"""Times that a number is as large as another one, at most, to be in its unit."""
+MOST_TIMES = 5  # times that a number is as large as another one, at most, to be in its unit
 
 _TIME = re.compile(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])")
 _BETWEEN_TIMES = re.compile(r"\D{1,9}")
@@ -53,9 +52,19 @@ _A_SECOND_ONE = re.compile(
 _NAME = re.compile(r"(?<![^\W_])(?P<letters>[^\W\d_]+)(?P<joint>[-_/]?)(?:\d+[-_/])*$")
 _LEADS_TO_NAME = re.compile(r"[-_][A-Z]+[-_]?\d")
 AXES = tuple("nsew")
-LONGEST_NAME = 24
-"""Characters of a name before its last figures."""
+LONGEST_NAME = 24  # characters of a name before its last figures
 _THINGS = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
+
+_PART = re.compile(
+    r" of (?:a|an|the) (?:full |complete |whole )?"
+    r"(?:turn|circle|rotation|revolution|circuit|round)\b",
+    re.IGNORECASE,
+)
+_ROUND = ("round", "around", "about")
+_LAPS = re.compile(
+    r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)",
+    re.IGNORECASE,
+)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -89,13 +98,14 @@ def in_unit(text: str, unit: str | None) -> Iterator[Number]:
             yield replace(number, value=own.of_base(number.value), unit=unit, added=added)
         else:
             yield number
-    if base is None:
-        yield from _times_said(text)
+    for word, start, end in read_rows(text)[0].tokens if base is None else ():
+        if times := lists.TIMES.get(word):  # "twice" and "once" as counts
+            yield Number(times, WRITTEN, start, end, said=times, counts=True, stop=end)
 
 
 def _in_base(text: str, unit: str | None) -> Iterator[Number]:
     """The numbers as values in a base unit."""
-    numbers = read_all(text, letters=unit not in SPOKEN)
+    numbers = read_all(text, letters=unit not in lists.SPOKEN)
     totals = list(sums(numbers, unit))
     # "2 h 20 min" are no two hours.
     parts = [total for total, whole in totals if whole]
@@ -110,9 +120,6 @@ def _in_base(text: str, unit: str | None) -> Iterator[Number]:
     yield from (total for total, _whole in totals)
     for row in read_rows(text):
         yield from _as_before(row, unit)
-
-
-# ---------------------------------------------------------------- the numbers of a row
 
 
 @functools.lru_cache(maxsize=64)
@@ -160,13 +167,6 @@ def read_times(text: str) -> Iterator[Number]:
         if two and _BETWEEN_TIMES.fullmatch(text, one.end(), two.start()):
             seconds = (60 * int(two[1]) + int(two[2]) - first) * 60 % DAY
             yield Number(seconds, WRITTEN, one.start(), two.end(), "s", seconds)
-
-
-def _times_said(text: str) -> Iterator[Number]:
-    """ "Twice" and "once" as counts."""
-    for word, start, end in read_rows(text)[0].tokens:
-        if times := TIMES.get(word):
-            yield Number(times, WRITTEN, start, end, said=times, counts=True, stop=end)
 
 
 def _at(row: Row, index: int) -> Iterator[tuple[Number, int]]:
@@ -283,9 +283,9 @@ def _counts(row: Row, index: int, number: Number) -> bool:
         return False
     word, last, second = row.word(index), row.word(index - 1), row.word(index - 2)
     added = last in AND or (last in ("a", "an") and second in AND)
-    lone = last not in WORDS["before_one"] and row.word(index + 1) not in DIGITS
+    lone = last not in WORDS["before_one"] and row.word(index + 1) not in lists.DIGITS
     stands = number.said == 1 and word == "one" and lone
-    part = word in FRACTIONS and end == row.tokens[index].end and not added
+    part = word in lists.FRACTIONS and end == row.tokens[index].end and not added
     bearing = len(word) == 3 and word.isdigit() and word[0] == "0"
     things = _THINGS.match(text, end)
     thing = things is not None and _is_thing(things[1].lower())
@@ -298,21 +298,7 @@ def _is_thing(word: str) -> bool:
     """Whether a word that ends with "s" names things, and is no unit nor near one."""
     if not is_known(word) or word in WORDS["no_things"]:
         return False
-    return not any(edit_distance(word, unit, 2) <= 2 for unit in UNITS)
-
-
-# ---------------------------------------------------------------- rows of numbers
-
-
-def rows_of_sizes(text: str) -> list[list[Number]]:
-    """The numbers that are said together: "50 by 60 m", "100x60x20"."""
-    rows = list[list[Number]]()
-    for number in read_numbers(text):
-        if rows and BY.fullmatch(text, rows[-1][-1].end, number.start):
-            rows[-1].append(number)
-        else:
-            rows.append([number])
-    return [row for row in rows if len(row) > 1]
+    return not any(lists.edit_distance(word, unit, 2) <= 2 for unit in UNITS)
 
 
 def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
@@ -325,3 +311,20 @@ def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
             continue
         if 1 / MOST_TIMES < number.said / before.said < MOST_TIMES:
             yield replace(number, value=number.said * before.factor, unit=unit, rank=AS_BEFORE)
+
+
+def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
+    """Angles in degrees of the turns of a text: full, once, half, twice, three times."""
+    for row in read_rows(text):
+        for index, (word, start, end) in enumerate(row.tokens):
+            turn = lists.TURNS.get(word, 0.0)
+            if word == "way" and row.word(index - 2) == "all" and row.word(index + 1) in _ROUND:
+                turn, start, end = 1.0, row.tokens[index - 2].start, row.tokens[index + 1].end
+            if turn:
+                yield Number(360 * turn, WRITTEN, start, end, "deg", turn)
+    for number in (one for one in numbers if one.unit is None):
+        laps = _LAPS.match(text, number.end)
+        part = number.value in (0.75, 1.5) or abs(number.value - 2 / 3) < 1e-9
+        if part or laps or _PART.match(text, number.end):
+            end = laps.end() if laps else number.end
+            yield Number(360 * number.value, WRITTEN, number.start, end, "deg", number.said)

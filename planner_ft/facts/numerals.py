@@ -10,18 +10,16 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from planner_ft.facts import lists
-from planner_ft.facts.lists import DIGITS, FRACTIONS, PARTS, SCALES, SMALL, UNITS, WORDS, Unit
+from planner_ft.facts import words as lists
 from planner_ft.facts.units import unit_at
-from planner_ft.facts.words import corrections
+from planner_ft.facts.words import DIGITS, FRACTIONS, PARTS, SCALES, SMALL, UNITS, WORDS, Unit
 
 AND, SAID = WORDS["and"], {**DIGITS, **lists.PRONOUNCED}
 MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
 TURNED = ("of", "turn", "turns", "circle", "circles")
 NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *lists.TURNS])
 COUNTED = frozenset([*WORDS["articles"], *SMALL, *SCALES, *FRACTIONS, "-", "/", "of"])
-PASSED = 3
-"""Words between a number and its unit: "quarter of a nautical mile"."""
+PASSED = 3  # words between a number and its unit: "quarter of a nautical mile"
 
 _TOKEN = re.compile(
     r"\d{1,3}(?:,\d{3})+(?=\s?(?:m|metres|meters|s|seconds)\b)"
@@ -33,8 +31,7 @@ _TOKEN = re.compile(
 """A hyphen between letters is no token: "ninety-five" is ninety five."""
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])")
 
-Reading = tuple[float, int]
-"""A number, and the index behind it."""
+Reading = tuple[float, int]  # a number, and the index behind it
 
 
 class Token(NamedTuple):
@@ -78,7 +75,7 @@ class Row:
         for index, (word, start, _end) in enumerate(self.tokens):
             if start >= until:
                 break
-            meant = corrections(word) if word.isalpha() and word not in UNITS else ()
+            meant = lists.corrections(word) if word.isalpha() and word not in UNITS else ()
             likely = len(word) > 3 and numerals
             known = [one for one in meant if one in NUMERALS] if likely else []
             if behind and (units := [one for one in meant if one in UNITS]):
@@ -105,8 +102,6 @@ class Row:
     def gap(self, index: int) -> str:
         """The text before a token."""
         return self.text[self.tokens[index - 1].end : self.tokens[index].start] if index else ""
-
-    # ------------------------------------------------------------ numbers
 
     def numerals(self, index: int) -> Iterator[Reading]:
         """The numbers that begin at `index`, the plain one first."""
@@ -164,13 +159,10 @@ class Row:
         for passed in range(PASSED + 1):
             start = self.tokens[index].start if index < len(self.tokens) else len(self.text)
             if found := unit_at(self.text, start, letters=self.letters):
-                return found[0], self.index_from(found[1])
+                behind = bisect.bisect_left(self.tokens, found[1], key=lambda token: token.start)
+                return found[0], behind
             index += passed < PASSED and self.word(index) in WORDS["beside_unit"]
         return UNITS.get(self.word(index)), index + 1
-
-    def index_from(self, place: int) -> int:
-        """The first token that begins at a place of the text or behind it."""
-        return bisect.bisect_left(self.tokens, place, key=lambda token: token.start)
 
     def bare_unit(self, index: int) -> bool:
         """Whether a unit without a number begins here: "wait minute at each", "full mnute"."""

@@ -1,4 +1,4 @@
-"""Places, directions and turns of a text.
+"""Places and directions of a text.
 
 Geographic coordinates are a kind of their own. They are told from local positions ("40 east, 25
 north", in metres) by a degree sign with minutes or a hemisphere, the words latitude and longitude,
@@ -13,17 +13,15 @@ import itertools
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
-from planner_ft.facts.lists import COMPASS, SHORT, TURNS, UNITS
-from planner_ft.facts.numbers import read_numbers, read_rows
-from planner_ft.facts.together import REREAD, WRITTEN, Number, pairs
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.together import BY, REREAD, WRITTEN, Number, pairs
+from planner_ft.facts.words import COMPASS, SHORT, UNITS
 
-DIGITS_OF_DEGREES = 4
-"""Decimals from which a bare number is rather degrees than metres."""
-MOST_BETWEEN = 80
-"""Characters between two coordinates."""
-BLANK = "|"
-"""Stands in place of what was read already."""
+DIGITS_OF_DEGREES = 4  # decimals from which a bare number is rather degrees than metres
+MOST_BETWEEN = 80  # characters between two coordinates
+BLANK = "|"  # stands in place of what was read already
 _DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
 _METRES = r"(?:met(?:re|er)s?|m)\b"
 _MINUS = ("-", "−", "–")
@@ -50,6 +48,9 @@ _WRITTEN_PAIR = re.compile(
     re.IGNORECASE,
 )
 """Two numbers that are certainly coordinates, and no other values."""
+PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?\s?[,/]\s?[-−–]?\d+(?:\.\d+)?")
+BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
+"""What stands between the positions of a row."""
 _BETWEEN = re.compile(
     rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?![a-z])|{_METRES}|(?:(?:to )?the |due )?"
     rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
@@ -58,8 +59,7 @@ _BETWEEN = re.compile(
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
 _Y_FIRST = re.compile(r"(?<![a-z])y\s*[=:]?\s*$", re.IGNORECASE)
-_CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")
-"""A time of day: "16:00"."""
+_CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")  # a time of day: "16:00"
 _COORDINATE_UNIT = re.compile(
     r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in "
     r"(kilometres|kilometers|km|feet|ft|yards)\b(?! \w+ing\b)",
@@ -92,16 +92,6 @@ _BEARING = re.compile(
     r"|\b(?:[NSEW]{1,3}|[ns][ns]?[ew]|[ew][ns][ew])\b"
 )
 _BLANKS = re.compile(r"[\s-]")
-_PART = re.compile(
-    r" of (?:a|an|the) (?:full |complete |whole )?"
-    r"(?:turn|circle|rotation|revolution|circuit|round)\b",
-    re.IGNORECASE,
-)
-_ROUND = ("round", "around", "about")
-_LAPS = re.compile(
-    r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)",
-    re.IGNORECASE,
-)
 
 
 @dataclass(frozen=True)
@@ -211,6 +201,42 @@ def without_geographic(text: str) -> str:
 # ---------------------------------------------------------------- local positions
 
 
+Placed = TypeVar("Placed", Number, Position)
+
+
+def rows_of(
+    text: str, found: Iterable[Placed], between: re.Pattern[str] = BESIDE
+) -> list[list[Placed]]:
+    """Positions with nothing but "and", "then" and marks between, or numbers with `between`."""
+    rows = list[list[Placed]]()
+    for one in found:
+        if rows and between.fullmatch(text, rows[-1][-1].end, one.start):
+            rows[-1].append(one)
+        else:
+            rows.append([one])
+    return rows
+
+
+def rows_of_sizes(text: str) -> list[list[Number]]:
+    """The numbers that are said together: "50 by 60 m", "100x60x20"."""
+    return [row for row in rows_of(text, read_numbers(text), BY) if len(row) > 1]
+
+
+def written_positions(text: str) -> list[Position]:
+    """Positions that are written as such: certain ones, and "40,25"; none overlaps another."""
+    measures = {number.end for number in read_numbers(text) if number.unit}
+    options = [
+        one
+        for one in read_positions(text)
+        if one.certain or (PAIR.fullmatch(text, one.start, one.end) and one.end not in measures)
+    ]
+    chosen = list[Position]()
+    for place in sorted(options, key=lambda one: (not one.certain, one.end - one.start)):
+        if all(place.end <= one.start or one.end <= place.start for one in chosen):
+            chosen.append(place)
+    return sorted(chosen, key=lambda place: place.start)
+
+
 def written_pairs(text: str) -> list[tuple[int, int]]:
     """The spans of what certainly are coordinates: "[40, 12]", "x=40 y=12"."""
     return [match.span() for match in _WRITTEN_PAIR.finditer(text)]
@@ -289,9 +315,6 @@ def unpaired_coordinates(text: str) -> bool:
     )
 
 
-# ---------------------------------------------------------------- directions and turns
-
-
 @functools.lru_cache(maxsize=4096)
 def read_bearings(text: str) -> tuple[Number, ...]:
     """Compass directions that a text names, in degrees clockwise from north."""
@@ -306,20 +329,3 @@ def read_bearings(text: str) -> tuple[Number, ...]:
 def is_course(text: str, place: int) -> bool:
     """Whether a number at a place of the text stands behind "heading" or a word like it."""
     return _COURSE.search(text, max(0, place - 20), place) is not None
-
-
-def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
-    """Angles in degrees of the turns of a text: full, once, half, twice, three times."""
-    for row in read_rows(text):
-        for index, (word, start, end) in enumerate(row.tokens):
-            turn = TURNS.get(word, 0.0)
-            if word == "way" and row.word(index - 2) == "all" and row.word(index + 1) in _ROUND:
-                turn, start, end = 1.0, row.tokens[index - 2].start, row.tokens[index + 1].end
-            if turn:
-                yield Number(360 * turn, WRITTEN, start, end, "deg", turn)
-    for number in (one for one in numbers if one.unit is None):
-        laps = _LAPS.match(text, number.end)
-        part = number.value in (0.75, 1.5) or abs(number.value - 2 / 3) < 1e-9
-        if part or laps or _PART.match(text, number.end):
-            end = laps.end() if laps else number.end
-            yield Number(360 * number.value, WRITTEN, number.start, end, "deg", number.said)

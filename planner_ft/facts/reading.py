@@ -10,30 +10,23 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from planner_ft.facts import numbers, places
-from planner_ft.facts.lists import SCALES, SMALL, UNITS, WORDS
 from planner_ft.facts.numbers import THOROUGH
 from planner_ft.facts.places import Geographic, Position
 from planner_ft.facts.together import AS_BEFORE, BARE, IN_PAIR, REREAD, Number
 from planner_ft.facts.units import base_of, named
-from planner_ft.facts.words import Phrases, Span, is_known, phrases
+from planner_ft.facts.words import SCALES, SMALL, UNITS, WORDS, Phrases, Span, is_known, phrases
 from planner_ft.vocabulary import Parameter
 from planner_ft.vocabulary.plans import is_number as is_number
 
 Kind = Literal["stated", "converted", "derived", "vehicle", "nobody", "unread"]
 EXACT, SCORING = 0.0, 0.02
 """Relative tolerances: that of document and constraint, and what the labelling rules allow."""
-ROUNDING = 0.0051
-"""Converted values are written with two decimals,"""
-CONVERSION = 1e-4
-"""and their factors are rounded: relative."""
-FARTHEST = 0.5
-"""Metres that a position may lie off: another whole metre is another place."""
-LARGEST = 1e9
-"""Longer rows of digits are no values."""
-FEWEST_WORDS = 5
-"""Words below which a text is too short to tell its language by."""
-NO_MEASURES = (None, "deg", "%")
-"""Bases whose numbers may count things, too."""
+ROUNDING = 0.0051  # converted values are written with two decimals,
+CONVERSION = 1e-4  # and their factors are rounded: relative
+FARTHEST = 0.5  # metres that a position may lie off: another whole metre is another place
+LARGEST = 1e9  # longer rows of digits are no values
+FEWEST_WORDS = 5  # words below which a text is too short to tell its language by
+NO_MEASURES = (None, "deg", "%")  # bases whose numbers may count things, too
 WAYPOINT = Parameter("x, y", "position", "m")
 """The two coordinates of a destination, judged together."""
 
@@ -130,7 +123,7 @@ class Facts:
     @functools.cached_property
     def turns(self) -> tuple[Number, ...]:
         """Angles of parts and numbers of circles: "half", "once round", "three times"."""
-        return tuple(dict.fromkeys(places.turns_of(self._local, self._all)))
+        return tuple(dict.fromkeys(numbers.turns_of(self._local, self._all)))
 
     @functools.cached_property
     def counts(self) -> tuple[float, ...]:
@@ -216,9 +209,6 @@ class Facts:
 def read(text: str) -> Facts:
     """The facts of a text, read once for all that ask about it."""
     return Facts(text)
-
-
-# ---------------------------------------------------------------- comparing values
 
 
 def is_place(value: Any) -> bool:

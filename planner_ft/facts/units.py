@@ -9,26 +9,20 @@ import functools
 import re
 import tomllib
 from collections.abc import Mapping
-from typing import Any
 
-from planner_ft.facts.lists import FOLDER, UNITS, Unit
-from planner_ft.vocabulary import Parameter
+from planner_ft.facts.words import FOLDER, UNITS, Unit
+from planner_ft.vocabulary import Entry, Parameter
 
-FEWEST = 4
-"""Letters from which a spelling is a word, in any case and with a plural."""
-LETTER = 1
-COUNT = ""
-"""The base of what is counted."""
+FEWEST = 4  # letters from which a spelling is a word, in any case and with a plural
+COUNT = ""  # the base of what is counted
 _PER = r"(?:\s?/\s?|\s+(?:per|an?)\s+)"
 
 
+@functools.lru_cache(maxsize=256)
 def named(name: str | None) -> Unit | None:
     """The unit that a definition names; None for one that is not known, and for none."""
-    return _named(name) if name else None
-
-
-@functools.lru_cache(maxsize=256)
-def _named(name: str) -> Unit | None:
+    if not name:
+        return None
     exact, anyhow = _spellings()
     name = name.strip()
     found = exact.get(name) or anyhow.get(name.lower()) or UNITS.get(name.lower())
@@ -52,7 +46,7 @@ def converted(value: float, unit: str | None, other: str | None) -> float | None
     return two.of_base(one.in_base(value)) if one.base == two.base else None
 
 
-def in_base_units(values: Mapping[str, Any], known: Mapping[str, Parameter]) -> list[float]:
+def in_base_units(values: Entry, known: Mapping[str, Parameter]) -> list[float]:
     """The numbers among the values of parameters, in base units where theirs is another."""
     given = [(value, named(known[name].unit)) for name, value in values.items() if name in known]
     numbers = [(value, unit) for value, unit in given if isinstance(value, int | float)]
@@ -81,19 +75,6 @@ def _ratio(above: Unit, below: Unit) -> Unit:
     return Unit(f"{above.base}/{below.base}", above.factor / below.factor)
 
 
-@functools.cache
-def _table() -> list[tuple[str, Unit]]:
-    """Every spelling with its unit."""
-    raw = tomllib.loads((FOLDER / "units.toml").read_text(encoding="utf-8"))
-    return [
-        (spelling.strip(), Unit(base, *map(float, numbers)))
-        for base, rows in raw.items()
-        for factor, spellings, *added in rows
-        for numbers in [(factor, *added)]
-        for spelling in spellings.split(",")
-    ]
-
-
 def _is_word(spelling: str) -> bool:
     return sum(map(str.isalpha, spelling)) >= FEWEST
 
@@ -101,16 +82,23 @@ def _is_word(spelling: str) -> bool:
 @functools.cache
 def _spellings() -> tuple[dict[str, Unit], dict[str, Unit]]:
     """The units by spelling as it stands, and by words in lower case with their plurals."""
-    words = [(spelling.lower(), unit) for spelling, unit in _table() if _is_word(spelling)]
-    plurals = {f"{spelling}s": unit for spelling, unit in words if spelling[-1].isalpha()}
-    return dict(_table()), {**plurals, **dict(words)}
+    raw = tomllib.loads((FOLDER / "units.toml").read_text(encoding="utf-8"))
+    exact = {
+        spelling.strip(): Unit(base, float(factor), *map(float, added))
+        for base, rows in raw.items()
+        for factor, spellings, *added in rows
+        for spelling in spellings.split(",")
+    }
+    words = {name.lower(): unit for name, unit in exact.items() if _is_word(name)}
+    plurals = {f"{name}s": unit for name, unit in words.items() if name[-1].isalpha()}
+    return exact, {**plurals, **words}
 
 
 @functools.cache
 def _pattern(letters: bool) -> re.Pattern[str]:
     exact, anyhow = _spellings()
     said = [name for name in exact if exact[name].base != COUNT and not _is_word(name)]
-    one = [name for name in said if letters or len(name) > LETTER or not name.isalpha()]
+    one = [name for name in said if letters or len(name) > 1 or not name.isalpha()]
     words = [name for name in anyhow if anyhow[name].base != COUNT]
     spoken = f"(?i:{_any(words)})"
     every = f"(?:{_any(said)}|{spoken}|(?i:{_any(list(UNITS))}))"

@@ -1,4 +1,5 @@
-"""Words of a text: how near one is to another, which are known, and where a phrase is said.
+"""Words of a text: how near one is to another, which are known, and where a phrase is said; the
+word lists of english.toml.
 
 `known_words.txt` is a frozen list of the words that commands use, with how often the templates have
 them (scripts/freeze_words.py wrote it). A word that it lacks is a name, or misspelt.
@@ -9,18 +10,76 @@ from __future__ import annotations
 import bisect
 import functools
 import re
+import tomllib
 from collections import defaultdict
+from pathlib import Path
+from typing import NamedTuple
 
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from planner_ft.facts.lists import FOLDER
+FOLDER = Path(__file__).parent
+_ENGLISH = tomllib.loads((FOLDER / "english.toml").read_text(encoding="utf-8"))
+_NUMERALS = _ENGLISH["numerals"]
+
+
+class Unit(NamedTuple):
+    """A unit: what one of it is in the base unit, and what is added to that (degrees)."""
+
+    base: str
+    factor: float
+    added: float = 0.0
+
+    def in_base(self, value: float) -> float:
+        return value * self.factor + self.added
+
+    def of_base(self, value: float) -> float:
+        return (value - self.added) / self.factor
+
+
+UNITS: dict[str, Unit] = {
+    word: Unit(row["unit"], float(factor))
+    for row in _ENGLISH["units"]
+    for factor, words in row["words"].items()
+    for word in words.split()
+}
+"""Word to the unit that parameters have and the factor to it."""
+SPOKEN = (None, *dict.fromkeys(unit.base for unit in UNITS.values()))
+"""Their bases. Beside these, a letter behind a number is no unit, and "a bar" is none."""
+
+SMALL: dict[str, float] = {
+    **{word: float(value) for value, word in enumerate(_NUMERALS["ones"].split())},
+    **{word: 10.0 * value for value, word in enumerate(_NUMERALS["tens"].split(), 2)},
+    **{word: float(value) for word, value in _NUMERALS["others"].items()},
+}
+DIGITS = {word: str(int(value)) for word, value in SMALL.items() if value < 10 and word != "couple"}
+SCALES: dict[str, float] = _NUMERALS["scales"]
+FRACTIONS: dict[str, float] = _NUMERALS["fractions"]
+PARTS = {**FRACTIONS, "quarters": 0.25, "thirds": 1 / 3}
+ORDINALS = {
+    form: 1 / value
+    for value, word in [
+        *enumerate(_NUMERALS["ordinals"].split(), 5),
+        *((3, "third"), (20, "twentieth")),
+    ]
+    for form in (word, f"{word}s")
+}
+"""Parts of a unit: "a tenth of an hour". Elsewhere these words count steps."""
+VULGAR: dict[str, float] = _NUMERALS["vulgar"]
+PRONOUNCED: dict[str, str] = _NUMERALS["pronounced"]
+TURNS = {word: float(value) for value, words in _ENGLISH["turns"].items() for word in words.split()}
+"""Words for a part or a number of full circles."""
+COMPASS = tuple(_ENGLISH["compass"]["names"].split())
+SHORT = tuple(_ENGLISH["compass"]["short"].split())
+"""Compass points in steps of 22.5 degrees from north."""
+WORDS = {name: tuple(words.split()) for name, words in _ENGLISH["words"].items()}
+TIMES: dict[str, float] = _ENGLISH["times"]  # words for how often
+MULTIPLES: dict[str, float] = _ENGLISH["multiples"]
+"""Words for a time or length by another one: "hold twice as long", "half the distance"."""
 
 Span = tuple[int, int]
-FARTHEST = 120
-"""Characters between the words of one phrase."""
-MOST_PLACES = 100
-"""Places of a word that are looked at."""
+FARTHEST = 120  # characters between the words of one phrase
+MOST_PLACES = 100  # places of a word that are looked at
 FEW_WORDS = 400
 """Different words of a text up to which each can be a misspelling; of more, only unknown ones."""
 ENDINGS = ("'s", "s", "es", "ed", "d", "ing", "ly", "er")
@@ -42,9 +101,6 @@ def normalised(text: str) -> str:
 def edit_distance(first: str, second: str, limit: int) -> int:
     """Levenshtein distance with transpositions of neighbours, or `limit` + 1 where it is larger."""
     return OSA.distance(first, second, score_cutoff=limit)
-
-
-# ---------------------------------------------------------------- the known words
 
 
 @functools.cache
@@ -116,9 +172,6 @@ def _resembles(written: str, meant: str) -> bool:
         return False
     limit = max(1, len(meant) // 3)
     return edit_distance(written, meant, limit) <= limit or _shortens(written, meant)
-
-
-# ---------------------------------------------------------------- phrases of a text
 
 
 class Phrases:

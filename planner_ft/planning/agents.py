@@ -14,8 +14,7 @@ from planner_ft.planning.result import AgentUse, Answer
 from planner_ft.planning.settings import Agent
 from planner_ft.support.resources import peak_memory
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.outputs import parse_output
-from planner_ft.vocabulary.plans import Level, plan_problems
+from planner_ft.vocabulary.plans import Level, parse_output, plan_problems
 
 if TYPE_CHECKING:
     from planner_ft.decoding.engine import Engine

@@ -11,8 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.facts import read
-from planner_ft.facts.places import without_geographic
-from planner_ft.facts.rows import positions_of, rows_of
+from planner_ft.facts.places import rows_of, without_geographic, written_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import (
     Limit,
@@ -125,7 +124,7 @@ def _kept(
 def areas_of(command: str) -> list[list[list[float]]]:
     """The rows of positions of a command that can be the corners of an area."""
     text = without_geographic(command)
-    rows = rows_of(text, positions_of(text))
+    rows = rows_of(text, written_positions(text))
     return [[[place.x, place.y] for place in row] for row in rows if len(row) >= CORNERS]
 
 

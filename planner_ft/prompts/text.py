@@ -10,7 +10,7 @@ from planner_ft.data.task.working import working_of
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import WORKING, Level, canonical_parameters, canonical_plan
-from planner_ft.vocabulary.text import prompt_text
+from planner_ft.vocabulary.schema import prompt_text
 
 INSTRUCTIONS: dict[str, dict[str, str]] = tomllib.loads(
     (Path(__file__).parent / "instructions.toml").read_text(encoding="utf-8")

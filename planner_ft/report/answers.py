@@ -15,8 +15,7 @@ from planner_ft.benchmark.metrics.alignment import Entries, Entry, align, plan_e
 from planner_ft.benchmark.results import Row
 from planner_ft.report.runs import TestSet
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.outputs import parse_output
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import Level, parse_output
 
 PART = 200  # samples in a part, which is unpacked as a whole
 RIGHT = "right"

@@ -8,9 +8,9 @@ from typing import Any
 
 from planner_ft import document as plans
 from planner_ft.document import PlanDocument, altered, document_digest, read_document
+from planner_ft.document.build import vocabulary_of
 from planner_ft.document.confidence import skills_confidence
-from planner_ft.document.differences import Difference, compare
-from planner_ft.document.files import vocabulary_of
+from planner_ft.document.edits import Difference, compare
 from planner_ft.planning.planner import Planner
 from planner_ft.planning.result import Answer
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings

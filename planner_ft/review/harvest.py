@@ -18,7 +18,7 @@ from planner_ft.data.leakage import near_duplicate
 from planner_ft.data.validation import canonical_record, record_problems
 from planner_ft.decoding.constraints import RAN_ON, TOO_LONG, UNPAIRED
 from planner_ft.document import PlanDocument
-from planner_ft.document.differences import compare
+from planner_ft.document.edits import compare
 from planner_ft.facts import WAYPOINT, is_known, missing_words, read, read_input
 from planner_ft.planning.agents import CUT_NOTE
 from planner_ft.planning.frame import frame_of

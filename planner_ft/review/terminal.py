@@ -10,12 +10,11 @@ from rich.console import Console
 from rich.text import Text
 
 from planner_ft.document import PlanDocument, differences
-from planner_ft.document.brief import brief, overview_lines
 from planner_ft.document.confidence import choice_lines, confidence_lines
-from planner_ft.document.differences import Difference
+from planner_ft.document.edits import Difference
 from planner_ft.document.track import track
-from planner_ft.document.tree import constraint_lines, origin_line, task_tree
-from planner_ft.document.warnings.kinds import gravest_first, meaning
+from planner_ft.document.tree import brief, constraint_lines, origin_line, overview_lines, task_tree
+from planner_ft.document.warnings.case import gravest_first, meaning
 from planner_ft.review.approval import Approval
 from planner_ft.review.changes import tampered
 from planner_ft.review.chart import chart

@@ -21,7 +21,7 @@ from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.motion import Motion
+from planner_ft.vocabulary.definition import Motion
 
 GROUP = "planner_ft.skills"
 PLACE, LEARNT = "planner_ft.simulation", "planner_ft.skills.mission"

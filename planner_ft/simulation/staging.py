@@ -18,8 +18,7 @@ from planner_ft.simulation.slots import LEARNT, WAYPOINTS, Slots
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.simulation.world import Fence, World
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.definition import SIMULATION
-from planner_ft.vocabulary.motion import Motion
+from planner_ft.vocabulary.definition import SIMULATION, Motion
 
 PATIENCE, SLACK = 3.0, 60.0
 """A step may take so many times what it is planned for, and so many seconds more."""

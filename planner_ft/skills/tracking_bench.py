@@ -20,7 +20,7 @@ from planner_ft.skills.policies import Policy
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.tables import Table, TableRow, figure, row
 from planner_ft.support.terminal import Report
-from planner_ft.vocabulary.motion import Motion
+from planner_ft.vocabulary.definition import Motion
 
 if TYPE_CHECKING:
     from planner_ft.skills.bench import SkillBench

@@ -4,38 +4,45 @@ from __future__ import annotations
 
 import functools
 import itertools
-import math
-import tomllib
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.support.files import read_text
-from planner_ft.vocabulary.motion import LISTS
+from planner_ft.support.files import read_toml
 
 if TYPE_CHECKING:
     from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 
-Table = Mapping[str, Any]
+Entry = Mapping[str, Any]  # an object of a plan, of a document, of a parsed file
 
 
 @functools.cache
 def _keys() -> dict[str, Any]:
     """What may stand where (shapes/definition.toml)."""
-    return tomllib.loads(read_text(Path(__file__).parent / "shapes" / "definition.toml"))
+    return read_toml(Path(__file__).parent / "shapes" / "definition.toml")
 
 
-def _is_text(value: Any) -> bool:
+def is_number(value: Any) -> bool:
+    """Whether a JSON value is a finite number that a float holds, and no boolean."""
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return number and abs(value) <= sys.float_info.max
+
+
+def is_position(value: Any) -> bool:
+    """Whether a JSON value is a position [x, y]."""
+    return isinstance(value, list) and len(value) == 2 and all(map(is_number, value))
+
+
+def is_text(value: Any) -> bool:
+    """Whether a JSON value is a text that is not blank."""
     return isinstance(value, str) and bool(value.strip())
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _are_names(value: Any) -> bool:
-    return isinstance(value, list) and all(map(_is_text, value))
+def are_names(value: Any) -> bool:
+    """Whether a JSON value is a list of such texts."""
+    return isinstance(value, list) and all(map(is_text, value))
 
 
 def _are_tables(value: Any) -> bool:
@@ -44,24 +51,22 @@ def _are_tables(value: Any) -> bool:
 
 
 KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
-    "text": ("a text", _is_text),
+    "text": ("a text", is_text),
     "flag": ("true or false", lambda value: isinstance(value, bool)),
-    "number": ("a number", _is_number),
-    "position": (
-        "a position [x, y]",
-        lambda value: isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)),
-    ),
-    "names": ("a list of names", _are_names),
+    "number": ("a number", is_number),
+    "position": ("a position [x, y]", is_position),
+    "names": ("a list of names", are_names),
 }
 """Per kind of value its name in words, and whether a value is of it."""
 NESTED = {"task": ("parameters", "skills"), "skill": ("parameters",)}
 """Keys that hold tables themselves."""
+LISTS = ("gives", "needs", "yields")  # of a task in the logic file
 
 
 # ---------------------------------------------------------------- the shape of a definition
 
 
-def shape_problems(raw: Table, phrases: Table) -> Iterator[str]:
+def shape_problems(raw: Entry, phrases: Entry) -> Iterator[str]:
     """Problems of keys and kinds of values in definition and phrases; names are not looked up."""
     yield from (f"unknown key {key!r}" for key in raw if key not in ("vehicle", *NESTED))
     vehicle = raw.get("vehicle")
@@ -79,7 +84,7 @@ def shape_problems(raw: Table, phrases: Table) -> Iterator[str]:
             yield f"the phrase file needs tables [{kind}.NAME]"
 
 
-def _table(table: Table, kind: str, where: str) -> Iterator[str]:
+def _table(table: Entry, kind: str, where: str) -> Iterator[str]:
     """Problems of keys and values of a table, without its subtables."""
     needed = _keys()[kind]["needed"]
     known = {**needed, **_keys()[kind].get("optional", {})}
@@ -98,7 +103,7 @@ def _table(table: Table, kind: str, where: str) -> Iterator[str]:
             yield f"{where}: {name} = {value!r} must be {KINDS[choices][0]}"
 
 
-def _entries(raw: Table, kind: str, key: str) -> Iterator[str]:
+def _entries(raw: Entry, kind: str, key: str) -> Iterator[str]:
     entries = raw.get(kind)
     if not isinstance(entries, list) or not entries or not _are_tables(entries):
         yield f"at least one [[{kind}]] is needed"
@@ -138,7 +143,7 @@ def _fitting_skills(skills: Any, where: str) -> Iterator[str]:
     for role, names in skills.items():
         if role not in roles:
             yield f"{where}: skills.{role} is none of {', '.join(roles)}"
-        elif not _are_names(names):
+        elif not are_names(names):
             yield f"{where}: skills.{role} must be a list of names"
     if not skills.get("navigation"):
         yield f"{where}: needs at least one navigation skill"
@@ -146,9 +151,6 @@ def _fitting_skills(skills: Any, where: str) -> Iterator[str]:
 
 def _repeated(names: Iterable[str]) -> list[str]:
     return sorted(name for name, count in Counter(names).items() if count > 1)
-
-
-# ---------------------------------------------------------------- names
 
 
 def reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
@@ -187,7 +189,7 @@ def reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
 # ---------------------------------------------------------------- the files beside a definition
 
 
-def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
+def logic_problems(raw: Entry, tasks: Mapping[str, Task]) -> Iterator[str]:
     """Problems of a parsed logic file, for a vocabulary with these tasks by title."""
     facts, entries = raw.get("fact", {}), raw.get("task", {})
     here = "the logic file"
@@ -196,7 +198,7 @@ def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
         yield f"{here} needs tables [fact.NAME] and [task.TITLE]"
         return
     for name, fact in facts.items():
-        if set(fact) != {"lacking"} or not _is_text(fact["lacking"]):
+        if set(fact) != {"lacking"} or not is_text(fact["lacking"]):
             yield f"{here}: fact {name} must have a text lacking, and nothing else"
     for title, entry in entries.items():
         where = f"{here}: task {title}"
@@ -208,7 +210,7 @@ def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
                 yield from _names_parameter(where, key, value, tasks[title].by_name, "texts")
             elif key not in LISTS:
                 yield f"{where}: unknown key {key!r}"
-            elif not _are_names(value):
+            elif not are_names(value):
                 yield f"{where}: {key} = {value!r} must be a list of names"
             elif key != "yields":
                 for name in value:
@@ -220,7 +222,7 @@ def logic_problems(raw: Table, tasks: Mapping[str, Task]) -> Iterator[str]:
 
 
 def motion_problems(
-    raw: Table, tasks: Mapping[str, Task], skills: Mapping[str, Skill]
+    raw: Entry, tasks: Mapping[str, Task], skills: Mapping[str, Skill]
 ) -> Iterator[str]:
     """Problems of a parsed motion file, for a vocabulary with these tasks and skills by name."""
     here = "the motion file"
@@ -240,7 +242,7 @@ def motion_problems(
             yield from _roles(entry, _keys()["standoff"], known, where, "a stand-off")
 
 
-def _motion(entry: Table, skill: Skill | None, where: str) -> Iterator[str]:
+def _motion(entry: Entry, skill: Skill | None, where: str) -> Iterator[str]:
     kinds, kind = _keys()["motion"], entry.get("motion")
     if skill is None:
         yield f"{where}: it is not defined"
@@ -254,7 +256,7 @@ def _motion(entry: Table, skill: Skill | None, where: str) -> Iterator[str]:
 
 
 def _roles(
-    entry: Table, keys: Table, parameters: Mapping[str, Parameter], where: str, owner: str
+    entry: Entry, keys: Entry, parameters: Mapping[str, Parameter], where: str, owner: str
 ) -> Iterator[str]:
     """Problems of {role: name of a parameter}."""
     needed, optional = keys.get("needed", []), keys.get("optional", [])

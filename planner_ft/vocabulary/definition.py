@@ -1,8 +1,11 @@
-"""A vehicle's tasks and skills, loaded from a definition file."""
+"""A vehicle's tasks and skills, loaded from a definition file and those beside it: what skills and
+tasks do (NAME.motion.toml), what tasks bring about and need beyond their places (NAME.logic.toml).
+"""
 
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -10,19 +13,22 @@ from typing import Any, Literal, get_args
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text, read_toml, sha256_text
 from planner_ft.vocabulary import checks
-from planner_ft.vocabulary.motion import LOGIC, MOTION, Logic, Motions, build_logic, build_motions
+from planner_ft.vocabulary.checks import Entry
 
 Role = Literal["navigation", "filter", "perception"]
 ParameterType = Literal["position", "polygon", "number", "integer", "text", "id", "texts"]
 Arrival = Literal["transit", "self", "none"]
 SkillMotion = Literal["goto", "hold", "turn_to", "turn_by", "arc", "drift", "visual", "wait"]
+MotionKind = Literal[
+    "go", "hold", "turn-to", "turn-by", "arc", "drift", "wait", "boundary", "clearance", "heading"
+]
 ROLES: tuple[Role, ...] = get_args(Role)
 
 BUNDLED = Path(__file__).parent
 DEFAULT = "usv"
 PHRASES, VEHICLE, ONTOLOGY = ".phrases.toml", ".vehicle.toml", ".ontology.toml"
 MISSIONS, LIMITS, ESSENTIALS = ".missions.toml", ".limits.toml", ".essentials.toml"
-SIMULATION = ".simulation.toml"
+SIMULATION, LOGIC, MOTION = ".simulation.toml", ".logic.toml", ".motion.toml"
 UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS, ESSENTIALS, SIMULATION)
 """Files beside a definition that no prompt, schema or grammar, and so no adapter depends on."""
 
@@ -95,6 +101,68 @@ class Skill(_Owner):
         """x and y of a skill that goes somewhere, in this order; of any other none."""
         needed = [item for item in self.parameters if item.required and item.type == "number"]
         return tuple(needed[:2]) if self.motion == "goto" else ()
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What a skill does to the vehicle, and its parameters by role ("angle" -> "delta_yaw").
+
+    Metres, seconds, degrees clockwise; a hold without a time lasts until a stop condition.
+    """
+
+    kind: MotionKind
+    parameters: Mapping[str, str] = field(default_factory=dict)
+
+    def value(self, role: str, parameters: Entry) -> Any:
+        """The value that a skill's parameters give to a role; None where they do not say it."""
+        return parameters.get(self.parameters.get(role, ""))
+
+
+@dataclass(frozen=True)
+class Standoff:
+    """The task parameters that say the circle kept around a target, and the angle of it."""
+
+    center: str
+    radius: str
+    arc: str | None = None
+
+
+@dataclass(frozen=True)
+class Motions:
+    """The motion of skills by name and the stand-off of tasks by title."""
+
+    skills: Mapping[str, Motion] = field(default_factory=dict)
+    standoffs: Mapping[str, Standoff] = field(default_factory=dict)
+
+    def of(self, skill: str) -> Motion | None:
+        """What a skill does to the vehicle; None for a skill that nothing is declared for."""
+        return self.skills.get(skill)
+
+    def standoff(self, title: str) -> Standoff | None:
+        """The circle that a task keeps; None for a task that keeps none."""
+        return self.standoffs.get(title)
+
+
+@dataclass(frozen=True)
+class TaskLogic:
+    """Facts that a task gives and needs, words for its yield, and the parameter of sent items."""
+
+    gives: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    yields: tuple[str, ...] = ()
+    sends: str | None = None
+
+
+@dataclass(frozen=True)
+class Logic:
+    """`lacking`: per fact the sentence for a plan without it; `tasks`: the logic by title."""
+
+    lacking: dict[str, str] = field(default_factory=dict)
+    tasks: dict[str, TaskLogic] = field(default_factory=dict)
+
+    def of(self, title: str) -> TaskLogic:
+        """The logic of a task; an empty one where nothing is declared."""
+        return self.tasks.get(title, TaskLogic())
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +266,7 @@ def build_vocabulary(
         problems += checks.motion_problems(motion, vocabulary.task, vocabulary.skill)
     if problems:
         raise PlannerError(f"{where}: " + "; ".join(problems))
-    return replace(vocabulary, logic=build_logic(logic), motion=build_motions(motion))
+    return replace(vocabulary, logic=_logic(logic), motion=_motions(motion))
 
 
 def _beside(path: Path, ending: str) -> dict[str, Any]:
@@ -221,3 +289,20 @@ def _values(entry: dict[str, Any]) -> dict[str, Any]:
     if "skills" in entry:
         values["skills"] = {role: tuple(names) for role, names in entry["skills"].items()}
     return values
+
+
+def _motions(raw: Entry) -> Motions:
+    skills = {}
+    for name, entry in raw.get("skill", {}).items():
+        roles = {role: key for role, key in entry.items() if role != "motion"}
+        skills[name] = Motion(entry["motion"], roles)
+    standoffs = {title: Standoff(**entry) for title, entry in raw.get("task", {}).items()}
+    return Motions(skills, standoffs)
+
+
+def _logic(raw: Entry) -> Logic:
+    tasks = {}
+    for title, entry in raw.get("task", {}).items():
+        lists = {key: tuple(entry.get(key, ())) for key in checks.LISTS}
+        tasks[title] = TaskLogic(**lists, sends=entry.get("sends"))
+    return Logic({name: fact["lacking"] for name, fact in raw.get("fact", {}).items()}, tasks)

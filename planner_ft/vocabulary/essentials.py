@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.checks import Entry
 from planner_ft.vocabulary.definition import ESSENTIALS, Skill, SkillMotion, Task, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
 
@@ -23,10 +24,10 @@ class TaskEssentials:
     has, by skill and its parameter, the parameter of the task that it takes when it has no value.
     """
 
-    skills: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    skills: Mapping[str, Entry] = field(default_factory=dict)
     during: tuple[str, ...] = ()
     takes: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    defaults: Mapping[str, Any] = field(default_factory=dict)
+    defaults: Entry = field(default_factory=dict)
     asks: tuple[str, ...] = ()
 
 
@@ -47,13 +48,13 @@ def essentials_of(title: str, vocabulary: Vocabulary) -> TaskEssentials:
     return load_essentials(vocabulary).get(title, NOTHING)
 
 
-def _built(entry: Mapping[str, Any]) -> TaskEssentials:
+def _built(entry: Entry) -> TaskEssentials:
     made = {key: entry.get(key, {}) for key in ("skills", "takes", "defaults")}
     during, asks = (tuple(entry.get(key, ())) for key in ("during", "asks"))
     return TaskEssentials(**made, during=during, asks=asks)
 
 
-def _problems(raw: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
+def _problems(raw: Entry, vocabulary: Vocabulary) -> Iterator[str]:
     yield from (
         f"unknown key {key!r}; there are tables [task.TITLE]" for key in raw.keys() - {"task"}
     )
@@ -71,7 +72,7 @@ def _problems(raw: Mapping[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
             yield from (f"[task.{title}]: {problem}" for problem in found)
 
 
-def _entry_problems(entry: Mapping[str, Any], task: Task, vocabulary: Vocabulary) -> Iterator[str]:
+def _entry_problems(entry: Entry, task: Task, vocabulary: Vocabulary) -> Iterator[str]:
     yield from (f"unknown key {key!r}" for key in entry if key not in KEYS)
     for key in ("skills", "takes"):
         yield from _skill_problems(key, entry.get(key, {}), task, vocabulary)
@@ -106,7 +107,7 @@ def _skill_problems(key: str, skills: Any, task: Task, vocabulary: Vocabulary) -
             )
 
 
-def _name_problems(key: str, entry: Mapping[str, Any], known: Any, what: str) -> Iterator[str]:
+def _name_problems(key: str, entry: Entry, known: Any, what: str) -> Iterator[str]:
     names = entry.get(key, [])
     if not isinstance(names, list):
         yield f"{key} must be a list of names"
@@ -117,7 +118,7 @@ def _name_problems(key: str, entry: Mapping[str, Any], known: Any, what: str) ->
     )
 
 
-def _value_problems(where: str, values: Mapping[str, Any], owner: Task | Skill) -> Iterator[str]:
+def _value_problems(where: str, values: Entry, owner: Task | Skill) -> Iterator[str]:
     for name, value in values.items():
         parameter = owner.by_name.get(name)
         if parameter is None:

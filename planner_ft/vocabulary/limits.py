@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.checks import Entry
 from planner_ft.vocabulary.definition import LIMITS, Vocabulary
 
 KINDS = (
@@ -84,9 +85,7 @@ def load_limits(vocabulary: Vocabulary) -> Limits:
     return {kind: _kind(kind, entry, vocabulary) for kind, entry in raw.items()}
 
 
-def sentence(
-    kind: str, values: Mapping[str, Any], limits: Limits, titles: Iterable[str] = ()
-) -> str:
+def sentence(kind: str, values: Entry, limits: Limits, titles: Iterable[str] = ()) -> str:
     """The limit as one of the mission plan's constraints: metres, seconds, m/s, [x, y]; `titles`
     are the tasks that it holds for where it does not hold for all.
     """
@@ -94,7 +93,7 @@ def sentence(
     return f"{text.removesuffix('.')}{DURING}{scope}." if scope else text
 
 
-def prompt_sentence(kind: str, values: Mapping[str, Any], limits: Limits) -> str:
+def prompt_sentence(kind: str, values: Entry, limits: Limits) -> str:
     """The limit as a sentence of a task prompt."""
     return _written(limits[kind].prompts, values)
 
@@ -127,7 +126,7 @@ def written(value: Any) -> str:
     return f"{value:g}" if float(f"{value:g}") == value else repr(value)
 
 
-def _written(forms: Sequence[str], values: Mapping[str, Any]) -> str:
+def _written(forms: Sequence[str], values: Entry) -> str:
     given = {name: written(value) for name, value in values.items() if value is not None}
     form = next(form for form in forms if set(slots(form)) <= given.keys())
     return form.format(**given)
@@ -157,7 +156,7 @@ def _number(words: str) -> float:
     return int(value) if value.is_integer() else value
 
 
-def _kind(kind: str, entry: Mapping[str, Any], vocabulary: Vocabulary) -> LimitKind:
+def _kind(kind: str, entry: Entry, vocabulary: Vocabulary) -> LimitKind:
     where = f"{vocabulary.name}{LIMITS}: [{kind}]"
     if kind not in KINDS:
         raise PlannerError(f"{where}: no such kind of limit; there is {', '.join(KINDS)}")

@@ -1,4 +1,4 @@
-"""The two plan forms: their content, key order and validity.
+"""The two plan forms: their content, key order and validity, and answers that are read as plans.
 
 A mission plan is `{"tasks": [{"title", "parameters", "task_prompt"}], "assumptions",
 "constraints"}`, a skill plan `{"skill_sequence": [{"navigation_skill", "filter_skills",
@@ -8,12 +8,17 @@ fast enough for every sample; schema.py states the same rules as JSON Schema, an
 
 from __future__ import annotations
 
+import json
+import math
 import re
-import sys
 from collections.abc import Iterable, Iterator
-from typing import Any, Literal, get_args
+from dataclasses import dataclass
+from typing import Any, Literal, NoReturn, get_args
 
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.checks import are_names, is_text
+from planner_ft.vocabulary.checks import is_number as is_number
+from planner_ft.vocabulary.checks import is_position as is_position
 from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
 
 Level = Literal["mission", "task"]
@@ -30,6 +35,7 @@ ENTRIES = ("tasks", "skill_sequence", "filter_skills", "perception_skills")
 """Keys of lists whose items are objects."""
 WORKING = "working"
 """Stands before a skill sequence, with sums that the model needs; no part of the plan."""
+LONGEST_INTEGER = 300  # digits of an integer that a float can still hold, with room
 _WORKED = re.compile(rf'\s*\{{"{WORKING}":"[^"\\]*",(?="skill_sequence")')
 
 
@@ -84,6 +90,55 @@ def without_working(text: str) -> tuple[str, str]:
     """The answer's text without the working before its skill sequence, and that working."""
     match = _WORKED.match(text)
     return ("{" + text[match.end() :], match[0].split('"')[3]) if match else (text, "")
+
+
+@dataclass(frozen=True)
+class Parsed:
+    """An answer read as JSON: the object, or None and why the answer is not one JSON object."""
+
+    plan: dict[str, Any] | None
+    problem: str | None = None
+
+
+def parse_output(output: str | dict[str, Any] | None) -> Parsed:
+    """Read an answer (text, or an object already) as one JSON object, as the published metric does.
+
+    White space and working before a skill sequence are allowed; fences, sentences, cut ends, NaN,
+    Infinity, too large numbers and strings that are not UTF-8 are not.
+    """
+    if output is None or (isinstance(output, str) and not output.strip()):
+        return Parsed(None, "empty")
+    try:
+        text = json.dumps(output) if isinstance(output, dict) else output
+        value = json.loads(text, parse_constant=_refuse, parse_float=_float, parse_int=_int)
+        if "\\u" in text:
+            json.dumps(value, ensure_ascii=False).encode()
+    except json.JSONDecodeError as error:
+        return Parsed(None, f"not JSON ({error.msg} at character {error.pos})")
+    except UnicodeEncodeError:
+        return Parsed(None, "not JSON (half of a surrogate pair in a string)")
+    except RecursionError:
+        return Parsed(None, "not JSON (nested too deeply)")
+    except ValueError as error:
+        return Parsed(None, f"not JSON ({error})")
+    if not isinstance(value, dict):
+        return Parsed(None, "JSON, but no object")
+    if "skill_sequence" in value and isinstance(value.get(WORKING), str):
+        value.pop(WORKING)
+    return Parsed(value)
+
+
+def _refuse(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is no JSON number")
+
+
+def _float(text: str) -> float:
+    value = float(text)
+    return value if math.isfinite(value) else _refuse(text[:20])
+
+
+def _int(text: str) -> int:
+    return int(text) if len(text) <= LONGEST_INTEGER else _refuse(f"{text[:20]}...")
 
 
 # ---------------------------------------------------------------- canonical form
@@ -262,31 +317,16 @@ def value_problem(value: Any, parameter: Parameter) -> str | None:
     return None
 
 
-def is_number(value: Any) -> bool:
-    """Whether a JSON value is a finite number that a float holds, and no boolean."""
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and abs(value) <= sys.float_info.max
-
-
-def is_position(value: Any) -> bool:
-    """Whether a JSON value is a position [x, y]."""
-    return isinstance(value, list) and len(value) == 2 and all(map(is_number, value))
-
-
 def _is_whole(value: Any) -> bool:
     return is_number(value) and value == int(value)
-
-
-def _is_text(value: Any) -> bool:
-    return isinstance(value, str) and bool(value.strip())
 
 
 VALUES = {
     "number": ("number", is_number),
     "integer": ("whole number", _is_whole),
-    "text": ("text", _is_text),
-    "id": ("identifier", lambda value: _is_text(value) or _is_whole(value)),
-    "texts": ("list of texts", lambda value: isinstance(value, list) and all(map(_is_text, value))),
+    "text": ("text", is_text),
+    "id": ("identifier", lambda value: is_text(value) or _is_whole(value)),
+    "texts": ("list of texts", are_names),
     "position": ("position [x, y]", is_position),
     "polygon": (
         "polygon of at least three positions",

@@ -7,12 +7,12 @@ Preconditions and effects are checked as planning systems validate plans (VAL: H
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from planner_ft.vocabulary.definition import Parameter, Task, Vocabulary
-from planner_ft.vocabulary.motion import TaskLogic
+from planner_ft.vocabulary.checks import Entry
+from planner_ft.vocabulary.definition import Parameter, Task, TaskLogic, Vocabulary
 from planner_ft.vocabulary.plans import value_problem
 
 Position = tuple[float, float]
@@ -54,8 +54,7 @@ class Progress:
         return task.arrival != "transit" or not self.found
 
 
-START = Progress()
-"""Where a plan stands before its first task."""
+START = Progress()  # where a plan stands before its first task
 
 
 def target_parameter(task: Task) -> Parameter | None:
@@ -89,14 +88,12 @@ class Holds:
     done: tuple[TaskLogic, ...] = ()
 
 
-def replay(
-    plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds | None = None
-) -> Stop | None:
+def replay(plan: Entry, vocabulary: Vocabulary, holds: Holds | None = None) -> Stop | None:
     """The first task that cannot be carried out from `holds` (by default nothing), or None."""
     return next((stop for stop, _missing in stops(plan, vocabulary, holds)), None)
 
 
-def on_board(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Holds:
+def on_board(plan: Entry, vocabulary: Vocabulary) -> Holds:
     """The facts and items that a plan needs before it brings them about."""
     missing = frozenset().union(*(facts for _stop, facts in stops(plan, vocabulary)))
     known = vocabulary.logic.lacking.keys()
@@ -104,7 +101,7 @@ def on_board(plan: Mapping[str, Any], vocabulary: Vocabulary) -> Holds:
 
 
 def stops(
-    plan: Mapping[str, Any], vocabulary: Vocabulary, holds: Holds | None = None
+    plan: Entry, vocabulary: Vocabulary, holds: Holds | None = None
 ) -> Iterator[tuple[Stop, frozenset[str]]]:
     """Every unmet condition with missing facts and items; the plan goes on as if it were met."""
     holds = holds or Holds()
@@ -132,7 +129,7 @@ def stops(
 
 
 def _unmet_place(
-    task: Task, parameters: Mapping[str, Any], progress: Progress, vocabulary: Vocabulary
+    task: Task, parameters: Entry, progress: Progress, vocabulary: Vocabulary
 ) -> tuple[Condition, str] | None:
     """The condition on places that keeps a task from running where the plan stands."""
     place = parameters.get(task.position_parameter or "")
@@ -158,7 +155,7 @@ def _unmet_place(
     return None
 
 
-def _absent_place(task: Task, parameters: Mapping[str, Any]) -> str | None:
+def _absent_place(task: Task, parameters: Entry) -> str | None:
     """The parameter, or the choice of them, that must say where or what and does not."""
     places = {item.name: item for item in task.parameters if item.type in ("position", "id")}
     choice = [name for name in task.require_any if name in places]
@@ -169,7 +166,7 @@ def _absent_place(task: Task, parameters: Mapping[str, Any]) -> str | None:
 
 
 def _missing(
-    logic: TaskLogic, parameters: Mapping[str, Any], holds: Holds, later: list[TaskLogic]
+    logic: TaskLogic, parameters: Entry, holds: Holds, later: list[TaskLogic]
 ) -> frozenset[str]:
     """The facts that a task needs and the items that it sends, as far as they are missing."""
     items = [item.casefold() for item in parameters.get(logic.sends or "", ())]

@@ -1,4 +1,5 @@
-"""JSON Schemas (Draft 2020-12) of plans, records and manifests, derived from a vocabulary.
+"""JSON Schemas (Draft 2020-12) of plans, records and manifests, derived from a vocabulary;
+the vocabulary as text, for the prompt of base models and as a page of the documentation.
 
 `properties` are in the order of serialisation. Alternatives are `anyOf` with inline `const` names,
 the form that grammar compilers take.
@@ -12,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.support.files import indented_json, read_text, write_json
-from planner_ft.vocabulary.definition import ROLES, Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import ROLES, Parameter, Role, Skill, Task, Vocabulary
+from planner_ft.vocabulary.essentials import load_essentials
 from planner_ft.vocabulary.plans import LEVELS, MISSION_KEYS, STEP_KEYS, Level
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -43,6 +45,22 @@ TASK_KEYS = (
     "output",
 )
 """The keys of a document's task in their order."""
+
+PAGE = SHAPES / "vocabulary.md.j2"
+ROLE_HEADINGS: dict[Role, str] = {
+    "navigation": "navigation skills (exactly one per step; it moves or holds the vehicle and its"
+    " end ends the step)",
+    "filter": "filter skills (run beside the navigation skill and constrain it)",
+    "perception": "perception skills (run beside the navigation skill and gather data)",
+}
+FORMS = {
+    "position": "[x, y]",
+    "polygon": "[[x, y], ...]",
+    "texts": '["...", ...]',
+    "text": '"..."',
+    "id": '"..."',
+}
+"""How values of a type are written, except for numbers."""
 
 
 def plan_schema(level: Level, vocabulary: Vocabulary, *, strict: bool) -> Schema:
@@ -125,9 +143,6 @@ def stale_schemas(folder: Path, vocabulary: Vocabulary) -> list[str]:
     ]
 
 
-# ---------------------------------------------------------------- parts
-
-
 def parameter_schema(parameter: Parameter) -> Schema:
     """The schema of one parameter's value."""
     if parameter.type not in ("number", "integer"):
@@ -186,9 +201,6 @@ def _named(owner: Task | Skill, **more: Schema) -> Schema:
     return object_schema(own, strict=True)
 
 
-# ---------------------------------------------------------------- plan documents
-
-
 @functools.cache
 def frame_schema() -> Schema:
     """The schema of a document with titles, parameters and steps of any kind."""
@@ -236,3 +248,61 @@ def _tasks(frame: Schema, vocabulary: Vocabulary) -> Schema:
         properties = {**one["properties"], **own, "skill_sequence": steps}
         alternatives.append({**one, "properties": properties})
     return {"type": "array", "items": {"anyOf": alternatives}}
+
+
+def prompt_text(level: Level, vocabulary: Vocabulary) -> str:
+    """Names and parameters of this level, one a line, as base models are shown them."""
+    if level == "mission":
+        return "\n".join(map(_line, vocabulary.tasks))
+    return "\n".join(
+        line
+        for role, heading in ROLE_HEADINGS.items()
+        for line in (f"{heading}:", *map(_line, vocabulary.skills_in_role(role)))
+    )
+
+
+def _line(owner: Task | Skill) -> str:
+    name = owner.title if isinstance(owner, Task) else owner.name
+    return f"- {name}({', '.join(map(_written, owner.parameters))}): {owner.description}"
+
+
+def _written(parameter: Parameter) -> str:
+    number = parameter.type in ("number", "integer")
+    unit = f" in {parameter.unit}" if parameter.unit and number else ""
+    return f"{parameter.name}: {FORMS.get(parameter.type, parameter.type)}{unit}"
+
+
+def documentation_page(vocabulary: Vocabulary) -> str:
+    """docs/vocabulary.md: tasks by category, then skills by role, each with its parameters."""
+    import jinja2
+
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined)
+    template = environment.from_string(read_text(PAGE))
+    categories = dict.fromkeys(task.category for task in vocabulary.tasks)
+    page = template.render(
+        vocabulary=vocabulary,
+        categories=categories,
+        headings=ROLE_HEADINGS,
+        notes=_notes,
+        essentials=load_essentials(vocabulary),
+    )
+    return page.rstrip() + "\n"
+
+
+def _notes(parameter: Parameter, owner: Task | Skill) -> str:
+    """Type, unit and range of a parameter, and whether it is required."""
+    notes: list[str] = [parameter.type]
+    if parameter.unit:
+        notes.append(parameter.unit)
+    if parameter.minimum is not None and parameter.maximum is not None:
+        notes.append(f"{parameter.minimum:g} to {parameter.maximum:g}")
+    if parameter.required:
+        notes.append("required")
+    elif parameter.name in owner.require_any:
+        notes.append("one of these required")
+    return ", ".join(notes)
+
+
+def stale_page(path: Path, vocabulary: Vocabulary) -> bool:
+    """Whether the page at `path` is missing or differs from what the vocabulary gives."""
+    return not path.is_file() or read_text(path) != documentation_page(vocabulary)

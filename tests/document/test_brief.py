@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.document.brief import Brief, brief, overview_lines
 from planner_ft.document.track import Target, track
+from planner_ft.document.tree import Brief, brief, overview_lines
 from planner_ft.support.geodesy import Origin
 from tests.documents import USV, document, step, task
 

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.confidence.calibration import Judgement
 from planner_ft.document import apply, document_digest, revise, undo
-from planner_ft.document.build import PlanDocument, build
+from planner_ft.document.build import PlanDocument, build, document_problem
 from planner_ft.document.confidence import (
     choice_lines,
     confidence_lines,
@@ -18,7 +18,6 @@ from planner_ft.document.confidence import (
     least_sure,
     open_choices,
 )
-from planner_ft.document.files import document_problem
 from planner_ft.document.tree import plan_tree
 from planner_ft.planning.doubts import doubts
 from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask

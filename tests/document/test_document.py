@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import hashlib
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +19,11 @@ from planner_ft.document import (
     apply,
     differences,
     document_digest,
-    files,
     read_document,
     revise,
     write_document,
 )
-from planner_ft.document.build import canonical
-from planner_ft.document.files import document_problem
+from planner_ft.document.build import canonical, document_problem
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.schema import document_schema
@@ -212,6 +211,7 @@ def test_a_file_of_64_mib_is_read_and_a_larger_one_is_not(
 ) -> None:
     write_document(tmp_path / "plan.json", plan)
     size = (tmp_path / "plan.json").stat().st_size
+    files = sys.modules[read_document.__module__]
     assert files.LARGEST_FILE == 64 * 1024 * 1024
     monkeypatch.setattr(files, "LARGEST_FILE", size)
     assert read_document(tmp_path / "plan.json") == plan

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.facts.derived import Ground, sector_counts, turned
+from planner_ft.facts.geometry import Ground, sector_counts, turned
 from tests.values import changeable
 
 NOTHING: dict[str, Any] = dict.fromkeys(

@@ -13,7 +13,7 @@ from planner_ft.benchmark.metrics.facts import given_values
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import Split, sample_tasks
 from planner_ft.facts import SCORING, WAYPOINT, read_input
-from planner_ft.facts.derived import Ground, turned
+from planner_ft.facts.geometry import Ground, turned
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Parameter, load_vocabulary
 from planner_ft.vocabulary.plans import Level

@@ -7,7 +7,8 @@ import re
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
-from planner_ft.facts.numbers import in_unit, read_numbers, rows_of_sizes
+from planner_ft.facts.numbers import in_unit, read_numbers
+from planner_ft.facts.places import rows_of_sizes
 from planner_ft.facts.together import neighbours, pairs
 from planner_ft.vocabulary import Parameter
 

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
-from planner_ft.facts.places import lone_coordinates, read_positions
-from planner_ft.facts.rows import positions_of, rows_of
+from planner_ft.facts.places import lone_coordinates, read_positions, rows_of, written_positions
 
 
 def stated(text: str, position: list[float]) -> bool:
@@ -320,7 +319,7 @@ def test_numbers_of_a_coordinate_without_a_partner(text: str, loose: tuple[float
     ],
 )
 def test_rows_of_positions(text: str, found: list[str]) -> None:
-    rows = rows_of(text, positions_of(text))
+    rows = rows_of(text, written_positions(text))
     assert [" ".join(f"{one.x:g},{one.y:g}" for one in row) for row in rows] == found
 
 

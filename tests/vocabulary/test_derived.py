@@ -10,8 +10,14 @@ import pytest
 
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
-from planner_ft.vocabulary.schema import all_schemas, stale_schemas, write_schemas
-from planner_ft.vocabulary.text import documentation_page, prompt_text, stale_page
+from planner_ft.vocabulary.schema import (
+    all_schemas,
+    documentation_page,
+    prompt_text,
+    stale_page,
+    stale_schemas,
+    write_schemas,
+)
 
 ROOT = Path(__file__).parents[2]
 USV = load_vocabulary()

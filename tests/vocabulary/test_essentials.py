@@ -8,7 +8,7 @@ from pathlib import Path
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
 from planner_ft.vocabulary.essentials import essentials_of, load_essentials
-from planner_ft.vocabulary.text import documentation_page
+from planner_ft.vocabulary.schema import documentation_page
 
 
 def drone(folder: Path, essentials: str) -> Path:

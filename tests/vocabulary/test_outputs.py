@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.vocabulary.outputs import parse_output
+from planner_ft.vocabulary.plans import parse_output
 
 DIGITS = "9" * 300
 

@@ -31,7 +31,7 @@ from planner_ft.decoding.constraints.grammar import (
 )
 from planner_ft.decoding.constraints.patterns import literal, quoted, regex
 from planner_ft.facts import corrections, read_input
-from planner_ft.facts.lists import WORDS
+from planner_ft.facts.words import WORDS
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS, Level

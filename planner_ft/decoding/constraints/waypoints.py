@@ -18,7 +18,7 @@ from typing import Any
 from planner_ft.data.task.working import SUM
 from planner_ft.facts import geometry as g
 from planner_ft.facts import read_input
-from planner_ft.facts.derived import Ground
+from planner_ft.facts.geometry import Ground
 from planner_ft.facts.inputs import Input
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.reading import ROUNDING

@@ -5,20 +5,18 @@ A check is a function from a `Case` to the warnings that it finds.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from planner_ft.document.track import Track
-from planner_ft.document.warnings import asked, places, route, said, space, values
-from planner_ft.document.warnings.case import Case, Check
-from planner_ft.document.warnings.kinds import KINDS, NOTES, SERIOUS, Warning, warning
+from planner_ft.document.warnings import asked, places, route, said, values
+from planner_ft.document.warnings.case import KINDS, NOTES, SERIOUS, Case, Check, Warning, warning
 from planner_ft.planning.frame import doubt, origin_of
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Entry, Vocabulary
 
 __all__ = ["KINDS", "NOTES", "SERIOUS", "warnings"]
 
 
-def warnings(document: Mapping[str, Any], vocabulary: Vocabulary, path: Track) -> list[Warning]:
+def warnings(document: Entry, vocabulary: Vocabulary, path: Track) -> list[Warning]:
     """The warnings by kind, then in the plan's order; needs sources, estimate and track."""
     case = Case(document, path, vocabulary)
     found = [one for check in (CHECKS if case.tasks else EMPTY) for one in check(case)]
@@ -54,8 +52,8 @@ def answers(case: Case) -> Iterator[Warning]:
 
 CHECKS: tuple[Check, ...] = (
     answers,
-    *(space.broken_limits, space.close_structures, route.open_places, route.order),
-    *(space.boundaries, space.area_and_reach, route.endurance, route.missing_return),
+    *(route.broken_limits, route.close_structures, route.open_places, route.order),
+    *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),

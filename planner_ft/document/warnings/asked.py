@@ -8,20 +8,16 @@ from typing import Any
 
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import place_of
-from planner_ft.document.warnings.case import Case, skills_of
-from planner_ft.document.warnings.kinds import Warning, named, quoted, warning
+from planner_ft.document.warnings.case import Case, Warning, named, quoted, skills_of, warning
 from planner_ft.facts import unknown_words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.essentials import essentials_of
 
-STEM = 5
-"""First letters by which a word is found again."""
-NEAR = 24
-"""Characters in which words that rule something out stand before it."""
-ARTICLE = 3
-"""Words before a noun among which its article is."""
+STEM = 5  # first letters by which a word is found again
+NEAR = 24  # characters in which words that rule something out stand before it
+ARTICLE = 3  # words before a noun among which its article is
 NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
 IT = re.compile(r"\s+(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
@@ -252,9 +248,6 @@ def home_and_not(case: Case) -> Iterator[Warning]:
         yield warning("contradiction", "home", about="home", words=words, ends=ends)
 
 
-# ---------------------------------------------------------------- data
-
-
 def data_ruled_out(case: Case) -> Iterator[Warning]:
     """Words that rule data out which steps of the plan gather."""
     gathering = set[str]().union(*(_gathering(task, case.vocabulary) for task in case.tasks))
@@ -300,7 +293,7 @@ def _once(
             yield warning("data-not-planned", "once", about=about, **values)
 
 
-def _gathering(task: Mapping[str, Any], vocabulary: Vocabulary) -> set[str]:
+def _gathering(task: Entry, vocabulary: Vocabulary) -> set[str]:
     """The skills that gather something in a task; of a task that waits those that are essential."""
     names = {skill["name"] for _role, skill in skills_of(task)}
     if not task["skill_sequence"]:

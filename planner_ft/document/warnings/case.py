@@ -1,4 +1,6 @@
-"""A plan with its command, read once for all checks."""
+"""The kinds of warnings (kinds.toml): how grave each is, its name, its sentences; and a plan with
+its command, read once for all checks.
+"""
 
 from __future__ import annotations
 
@@ -6,22 +8,38 @@ import functools
 import itertools
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, Literal
 
 from planner_ft.document.language import Clause, language, read_clauses
 from planner_ft.document.track import Track
-from planner_ft.document.warnings.kinds import Warning
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.inputs import SIDES
-from planner_ft.facts.numbers import read_numbers, rows_of_sizes
-from planner_ft.facts.places import read_positions, without_geographic
-from planner_ft.facts.rows import positions_of, rows_of
+from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import (
+    read_positions,
+    rows_of,
+    rows_of_sizes,
+    without_geographic,
+    written_positions,
+)
 from planner_ft.facts.units import in_base_units
 from planner_ft.planning.frame import frame_of
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.support.files import read_toml
+from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
+Severity = Literal["danger", "caution", "note"]
+SEVERITIES: tuple[Severity, ...] = ("danger", "caution", "note")  # the gravest first
+Warning = dict[str, Any]
+"""{"id", "kind", "task", "parameter", "text"}; edits elsewhere leave the id as it is."""
+TABLE: dict[str, dict[str, Any]] = read_toml(Path(__file__).with_name("kinds.toml"))
+KINDS = tuple(TABLE)  # in the order in which a plan has them
+NOTES = tuple(kind for kind, entry in TABLE.items() if entry["severity"] == "note")
+SERIOUS = tuple(kind for kind in KINDS if kind not in NOTES)
+"""Kinds that a plan should not be approved with unread."""
+LONGEST = 120  # characters of the command that are quoted
 ROW, CORNERS = 3, 3
 FULL = 360.0
 STEM = 5
@@ -29,14 +47,66 @@ LONGER = re.compile(r"[a-z]{4,}", re.IGNORECASE)
 """Words that say something, and the letters by which one is found again."""
 
 
+def meaning(kind: str) -> tuple[Severity, str]:
+    """Severity and name of a kind; one that is not known, as of another version, is a caution."""
+    entry = TABLE.get(kind)
+    named = kind.replace("-", " ").capitalize()
+    return (entry["severity"], entry["name"]) if entry else ("caution", named)
+
+
+def gravest_first(warnings: Iterable[Entry]) -> list[Entry]:
+    """Dangers, then cautions, then notes, each in the order that they have."""
+    return sorted(warnings, key=lambda one: SEVERITIES.index(meaning(one["kind"])[0]))
+
+
+def warning(
+    kind: str,
+    sentence: str = "",
+    task: Entry | None = None,
+    parameter: str | None = None,
+    about: str = "",
+    **values: Any,
+) -> Warning:
+    """A warning about a task, a parameter or the plan, in a sentence of its kind that is filled
+    with `values`; `about` tells several of a kind apart.
+    """
+    entry, name = TABLE[kind], task["id"] if task else None
+    written = entry["texts"][sentence] if sentence else entry["text"]
+    text = written.format(task=named(task) if task else "", **values)
+    return {
+        "id": ":".join(part for part in (kind, name, parameter, about) if part),
+        "kind": kind,
+        "task": name,
+        "parameter": parameter,
+        "text": text[:1].upper() + text[1:],
+    }
+
+
+def quoted(words: str) -> str:
+    """Words of the command on one line, not too many."""
+    text = " ".join(words.split())
+    return text if len(text) <= LONGEST else f"{text[:LONGEST].rsplit(' ', 1)[0]} ..."
+
+
+def named(task: Entry) -> str:
+    """A task as sentences name it, by its `number` in the plan."""
+    return f"task {task['number']}, {task['title']}"
+
+
+def lost(words: str) -> Warning:
+    """A value of the command that the plan has not."""
+    return warning("value-lost", "value", about=words.casefold(), words=words)
+
+
 class Case:
     """A revised plan document, its track, and what its command says.
 
-    `text` is the command in local metres, without geographic positions; `command` is as it was
-    typed. Places, numbers and clauses are those of `text`. Tasks have their `number` from 1.
+    `source` are the facts of the command in local metres, `text` is that without geographic
+    positions; `command` is as it was typed, with the clauses `typed`. Places, numbers and clauses
+    are those of `text`; `rows` have at least ROW positions. Tasks have their `number` from 1.
     """
 
-    def __init__(self, document: Mapping[str, Any], path: Track, vocabulary: Vocabulary) -> None:
+    def __init__(self, document: Entry, path: Track, vocabulary: Vocabulary) -> None:
         self.document, self.path, self.vocabulary = document, path, vocabulary
         self.tasks = [{**one, "number": at} for at, one in enumerate(document["tasks"], start=1)]
         self.by_id = {task["id"]: task for task in self.tasks}
@@ -45,37 +115,13 @@ class Case:
         self.vehicle: dict[str, Any] = document.get("vehicle") or {}
         self.spoken = language(vocabulary)
         self.words = self.spoken.words
-
-    @functools.cached_property
-    def source(self) -> Input:
-        """The facts of the command in local metres."""
-        return read_input({"prompt": frame_of(self.document).spoken}, self.vocabulary)
-
-    @functools.cached_property
-    def text(self) -> str:
-        return without_geographic(self.source.facts.text)
-
-    @functools.cached_property
-    def clauses(self) -> tuple[Clause, ...]:
-        return read_clauses(self.text, self.vocabulary)
-
-    @functools.cached_property
-    def typed(self) -> tuple[Clause, ...]:
-        """The clauses of the command as it was typed."""
-        return read_clauses(self.command, self.vocabulary)
-
-    @functools.cached_property
-    def numbers(self) -> list[Number]:
-        return list(read_numbers(self.text))
-
-    @functools.cached_property
-    def positions(self) -> list[Position]:
-        return positions_of(self.text)
-
-    @functools.cached_property
-    def rows(self) -> list[list[Position]]:
-        """At least ROW positions, one behind the other."""
-        return [row for row in rows_of(self.text, self.positions) if len(row) >= ROW]
+        self.source = read_input({"prompt": frame_of(document).spoken}, vocabulary)
+        self.text = without_geographic(self.source.facts.text)
+        self.clauses, self.typed = (
+            read_clauses(one, vocabulary) for one in (self.text, self.command)
+        )
+        self.numbers, self.positions = read_numbers(self.text), written_positions(self.text)
+        self.rows = [row for row in rows_of(self.text, self.positions) if len(row) >= ROW]
 
     @functools.cached_property
     def plan(self) -> PlanValues:
@@ -96,7 +142,7 @@ class Case:
         return clause is None or (clause.wants(place) and not clause.corrected)
 
 
-def skills_of(task: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+def skills_of(task: Entry) -> Iterator[tuple[str, dict[str, Any]]]:
     """(role, skill) of all steps of a task."""
     return (pair for step in task.get("skill_sequence") or () for pair in step_skills(step))
 
@@ -104,13 +150,10 @@ def skills_of(task: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
 Check = Callable[[Case], Iterator[Warning]]
 
 
-# ---------------------------------------------------------------- values of the plan
-
-
 class PlanValues:
     """The values of a plan: of tasks with their skills, of limits, and places in texts."""
 
-    def __init__(self, document: Mapping[str, Any], command: Input) -> None:
+    def __init__(self, document: Entry, command: Input) -> None:
         tasks, limits = document["tasks"], document.get("limits", ())
         skills = [skill for task in tasks for _role, skill in skills_of(task)]
         given = [owner["parameters"] for owner in (*tasks, *skills)]
@@ -217,7 +260,7 @@ def _flat(value: Any) -> Iterator[float]:
             yield from _flat(item)
 
 
-def _area_corners(values: Mapping[str, Any]) -> list[tuple[float, float]]:
+def _area_corners(values: Entry) -> list[tuple[float, float]]:
     """The corners of the area of a task that has sides and a middle."""
     middle = next(filter(is_place, values.values()), None)
     sides = [float(values[name]) for name in SIDES if is_number(values.get(name))]

@@ -7,13 +7,12 @@ from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
-from planner_ft.document.track import Point, TaskEntry, place_of, shown
-from planner_ft.document.warnings.case import Case, same_place
-from planner_ft.document.warnings.kinds import Warning, lost, quoted, warning
+from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
 from planner_ft.facts.places import lone_coordinates, read_bearings
 from planner_ft.planning.locations import ARTICLE
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Entry, Vocabulary
 
 
 def positions(case: Case) -> Iterator[Warning]:
@@ -126,7 +125,7 @@ def _left_out(case: Case) -> Iterator[tuple[Clause, str, Position]]:
                 yield clause, name, place
 
 
-def _is_at(task: TaskEntry, place: Position, vocabulary: Vocabulary) -> bool:
+def _is_at(task: Entry, place: Position, vocabulary: Vocabulary) -> bool:
     at = place_of(task, vocabulary)
     return at is not None and same_place(place, at)
 

@@ -1,20 +1,25 @@
-"""Whether the vehicle can carry the plan out: order, endurance, return; and whether steps perform
-their task: a grid covers its area, a pass has its length, a panorama looks in all its directions.
+"""Whether the vehicle can carry the plan out, and what its track breaks: order, endurance, return;
+limits, stand-offs, boundaries, area, reach; and whether steps perform their task: a grid covers its
+area, a pass has its length, a panorama looks in all its directions.
 """
 
 from __future__ import annotations
 
+import functools
+import itertools
 import math
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planner_ft.document.track import place_of, shown
-from planner_ft.document.warnings.case import Case
-from planner_ft.document.warnings.kinds import Warning, named, warning
+from planner_ft.document.structures import MOVING, close_legs, way_off
+from planner_ft.document.track import Leg, Point, place_of, shown, stated
+from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
 from planner_ft.facts.places import read_geographic, read_positions
-from planner_ft.planning.limits import without_limits
+from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.shapes import goal_of, shape_problem
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Entry, Vocabulary
+from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import is_number
 from planner_ft.vocabulary.replay import START, Condition, stops
 
@@ -25,9 +30,14 @@ KIND_OF: dict[Condition, tuple[str, str]] = {
     "data collected": ("data-not-collected", ""),
 }
 """Per condition that a replay finds unmet, the kind of its warning and its sentence."""
-MUCH = 0.5
-"""The part of the endurance from which parts of unknown length matter."""
+MUCH = 0.5  # the part of the endurance from which parts of unknown length matter
 MOST_LISTED = 6
+MEASURES = ("m", "s", "m/s", "count")  # units of what cannot be nothing; an angle and a share can
+TURNS = ("turn-to", "turn-by")
+TOLERANCE = 0.5
+"""Metres by which a leg may miss a limit, and beyond a boundary that are its line still."""
+INSIDE = re.compile(r"(?i)\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b")
+Found = tuple[str, str] | None  # (task, how) of the first thing that breaks a limit
 
 
 def open_places(case: Case) -> Iterator[Warning]:
@@ -83,9 +93,9 @@ def endurance(case: Case) -> Iterator[Warning]:
         yield warning("endurance-open", **words)
 
 
-def _last_away(case: Case) -> Mapping[str, Any] | None:
+def _last_away(case: Case) -> Entry | None:
     """The last task that takes place somewhere, unless that is home or a dock."""
-    task: Mapping[str, Any]
+    task: Entry
     for task in reversed(case.tasks):
         known = case.vocabulary.task[task["title"]]
         docks = known.docks or (known.arrival == "none" and known.pattern == "visual")
@@ -98,14 +108,6 @@ def _last_away(case: Case) -> Mapping[str, Any] | None:
 
 def _minutes(seconds: float) -> str:
     return f"{math.ceil(seconds / 60):,} min"
-
-
-# ---------------------------------------------------------------- the steps of a task
-
-
-MEASURES = ("m", "s", "m/s", "count")
-"""Units of what cannot be nothing; an angle and a share can."""
-TURNS = ("turn-to", "turn-by")
 
 
 def performed(case: Case) -> Iterator[Warning]:
@@ -129,7 +131,7 @@ def performed(case: Case) -> Iterator[Warning]:
             yield warning("not-performed", "shape", task, problem=problem)
 
 
-def _problem(task: Mapping[str, Any], names: list[str], known: Vocabulary) -> str | None:
+def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
     """How waypoints and turns of a task (`names`: its movements) differ from its values."""
     if known.task[task["title"]].pattern == "sectors":
         count, motions = task["parameters"].get("sectors"), map(known.motion.of, names)
@@ -140,3 +142,183 @@ def _problem(task: Mapping[str, Any], names: list[str], known: Vocabulary) -> st
     goals = [goal_of(step, known) for step in task["skill_sequence"]]
     points = [goal for at, goal in enumerate(goals) if goal and at not in clearance]
     return shape_problem(task, points, known)
+
+
+# ---------------------------------------------------------------- limits and stand-offs
+
+
+def broken_limits(case: Case) -> Iterator[Warning]:
+    """One per limit that is broken."""
+    seconds = (case.document.get("estimate") or {}).get("seconds", 0)
+    for limit in case.limits:
+        values, held = limit["values"], [case.tasks[place - 1] for place in limit["tasks"]]
+        most = time_left(values) if limit["kind"] == "return" else values.get("duration")
+        about = f"{limit['kind']}:{limit['text'].casefold()}"
+        words = {"limit": limit["text"].rstrip("."), "about": about}
+        if most is not None and len(held) == len(case.tasks):
+            if seconds > most:
+                yield warning("limit-broken", "plan", seconds=seconds, **words)
+        elif found := _broken(limit, held, case):
+            yield warning("limit-broken", "task", case.by_id[found[0]], how=found[1], **words)
+
+
+def _broken(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
+    kind, values, names = limit["kind"], limit["values"], {task["id"] for task in held}
+    legs = [leg for leg in case.path.legs if leg.points and leg.task in names]
+    if kind in ("fence", "keep_out_area"):
+        return _area(kind, values["polygon"], legs)
+    if kind == "keep_out" and "position" in values:
+        return _too_close(values, legs)
+    if kind == "distance":
+        home = case.vocabulary.home
+        away = [(math.dist(point, home), leg.task) for leg in legs for point in leg.points]
+        farthest, name = max(away, default=(0.0, ""))
+        too_far = farthest > values["distance"] + TOLERANCE
+        return (name, f"goes {farthest:.0f} m away from home") if too_far else None
+    if kind == "speed":
+        for task in held:
+            for speed in stated(task, "m/s", case.vocabulary).values():
+                if speed is not None and speed > values["speed"]:
+                    return task["id"], f"goes at {speed:g} m/s"
+    return _recording(limit, held, case) if kind == "no_recording" else None
+
+
+def _area(kind: str, corners: Any, legs: list[Leg]) -> Found:
+    from shapely import LineString, Point, Polygon, make_valid
+
+    area, inside = make_valid(Polygon(corners)), kind == "fence"
+    bounds = area.buffer(TOLERANCE if inside else -TOLERANCE)
+    for leg in legs:
+        line = LineString(leg.points) if len(leg.points) > 1 else Point(leg.points[0])
+        if inside and not bounds.covers(line):
+            ends = (point for point in leg.points if not bounds.covers(Point(point)))
+            at = next(ends, None)
+            where = f"goes to {shown(at)}, outside of it" if at else "leaves it on the way"
+            return leg.task, where
+        if not inside and bounds.intersects(line):
+            return leg.task, f"enters it on the way to {shown(leg.points[-1])}"
+    return None
+
+
+def _too_close(values: Entry, legs: list[Leg]) -> Found:
+    place, found = (values["position"][0], values["position"][1]), []
+    for leg in legs:
+        pairs = itertools.pairwise(leg.points) if leg.kind in MOVING else [(leg.points[0],) * 2]
+        found.append((min(way_off(place, *pair) for pair in pairs), leg.task))
+    nearest, task = min(found, default=(math.inf, ""))
+    slack = max(TOLERANCE, 0.005 * values["distance"])
+    return (task, f"comes within {nearest:.0f} m") if nearest < values["distance"] - slack else None
+
+
+def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
+    """A step that records: anywhere, or where the task prompt names the place."""
+    forbidden = load_limits(case.vocabulary)["no_recording"].forbids
+    thing = limit["values"].get("object", "")
+    for task in tasks:
+        prompt = without_limits(task["task_prompt"], case.vocabulary)
+        if not thing or thing.casefold() in prompt.casefold():
+            for _role, skill in skills_of(task):
+                if skill["name"] in forbidden:
+                    return task["id"], f"records ({skill['name']})"
+    return None
+
+
+def close_structures(case: Case) -> Iterator[Warning]:
+    """One per structure that a task comes too close to and that no limit names."""
+    limited = [limit["values"] for limit in case.limits]
+    told = {one.get("object") for one in limited}
+    told |= {shown(one.get("position", (0, 0))) for one in limited}
+    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
+        at, task = shown(structure.position), case.by_id[name]
+        if structure.name not in told and at not in told:
+            where = structure.name if structure.name == at else f"{structure.name} at {at}"
+            values: dict[str, Any] = {
+                "metres": metres,
+                "name": where,
+                "standoff": structure.standoff,
+            }
+            yield warning("structure-close", task=task, about=at, **values)
+
+
+# ---------------------------------------------------------------- boundaries, area, reach
+
+
+def boundaries(case: Case) -> Iterator[Warning]:
+    """Waypoints outside their boundary: of their step, their task or the plan's constraints."""
+    for name, step, polygon in _boundaries(case):
+        yield from _outside("boundary", case.by_id[name], _reached(case, name, step), polygon)
+
+
+def area_and_reach(case: Case) -> Iterator[Warning]:
+    """Waypoints outside the vehicle's area, or too far away to return."""
+    vehicle, home = case.vehicle, case.vocabulary.home
+    for task in case.tasks:
+        place = place_of(task, case.vocabulary)
+        reached = [*([place] if place else ()), *_reached(case, task["id"])]
+        if vehicle.get("area"):
+            yield from _outside("area", task, reached, _polygon(vehicle["area"]))
+        if not vehicle.get("endurance"):
+            continue
+        reach = vehicle["cruise_speed"] * vehicle["endurance"] / 2
+        farthest = max(reached, key=lambda point: math.dist(point, home), default=home)
+        if (away := math.dist(farthest, home)) > reach:
+            where = {"place": shown(farthest), "away": away, "reach": reach}
+            yield warning("out-of-reach", task=task, **where)
+
+
+def _outside(kind: str, task: Entry, points: list[Point], area: Any) -> Iterator[Warning]:
+    from shapely import intersects_xy
+
+    outside = next((point for point in points if not intersects_xy(area, *point)), None)
+    if outside:
+        yield warning(f"outside-{kind}", task=task, place=shown(outside))
+
+
+def _boundaries(case: Case) -> Iterator[tuple[str, int | None, Any]]:
+    """(task, step or None for all, polygon) of filter skills, task parameters and constraints."""
+    fences = [
+        [tuple(map(float, corner)) for corner in limit["values"]["polygon"]]
+        for limit in case.limits
+        if "polygon" in limit["values"]
+    ]
+    for boundary in case.path.boundaries:
+        if list(boundary.polygon) not in fences:
+            yield boundary.task, boundary.step, _polygon(boundary.polygon)
+    limits = {limit["text"] for limit in case.limits}
+    texts = [text for text in case.document.get("constraints", ()) if text not in limits]
+    plan = [corners for text in texts for corners in _corners(text)]
+    for task in case.tasks:
+        parameters = case.vocabulary.task[task["title"]].parameters
+        own = [task["parameters"].get(item.name) for item in parameters if item.type == "polygon"]
+        yield from ((task["id"], None, _polygon(corners)) for corners in (*own, *plan) if corners)
+
+
+def _corners(text: str) -> Iterator[list[Point]]:
+    """The corners that a constraint names: "Stay inside [0, 0], [80, 0], [80, 50], [0, 50]."."""
+    places = read_positions(text)
+    found = [place for place in places if text[place.start - 1 : place.start] in ("[", "(")]
+    corners = list(dict.fromkeys((place.x, place.y) for place in found))
+    if len(corners) >= 3 and INSIDE.search(text):
+        yield corners
+
+
+def _reached(case: Case, task: str, step: int | None = None) -> list[Point]:
+    """The points that legs of a task lead to; where a leg begins was reached before."""
+    own = case.path.of(task, step)
+    return [point for leg in own for point in leg.points[leg.kind in MOVING :]]
+
+
+def _polygon(corners: Iterable[Any]) -> Any:
+    return _prepared(tuple((float(x), float(y)) for x, y in corners))
+
+
+@functools.lru_cache(maxsize=512)
+def _prepared(corners: tuple[Point, ...]) -> Any:
+    """The area with its line; corners with crossing sides enclose every reading of them."""
+    from shapely import Polygon, make_valid, prepare
+
+    shape = Polygon(corners)
+    whole = shape if shape.is_valid else make_valid(shape).union(shape.convex_hull)
+    area = whole.buffer(TOLERANCE)
+    prepare(area)
+    return area

@@ -12,34 +12,34 @@ import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
-from planner_ft.document.warnings.case import LONGER, Case, same_place
-from planner_ft.document.warnings.kinds import Warning, lost, quoted, warning
+from planner_ft.document.warnings.case import (
+    LONGER,
+    Case,
+    Warning,
+    lost,
+    quoted,
+    same_place,
+    warning,
+)
 from planner_ft.facts import Number, is_place, near
-from planner_ft.facts.numbers import read_times, rows_of_sizes
-from planner_ft.facts.places import is_course
-from planner_ft.facts.rows import rows_of
+from planner_ft.facts.numbers import read_times
+from planner_ft.facts.places import is_course, rows_of, rows_of_sizes
 from planner_ft.facts.together import neighbours
 from planner_ft.vocabulary import Vocabulary
 
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
-SIZES = re.compile(r"\d\s?[x×*]\s?$")
-"""Stands before the second and third of "20 x 20 x 5"."""
+SIZES = re.compile(r"\d\s?[x×*]\s?$")  # stands before the second and third of "20 x 20 x 5"
 AXIS = re.compile(r"(?<![a-z])[xy]\s?[=:]?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
-LONGEST_NAME = 24
-"""Characters in which the name of a parameter stands before its value."""
+LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
-CORRECTED = 30
-"""Characters between a value and its correction."""
+CORRECTED = 30  # characters between a value and its correction
 SENTENCE = re.compile(r"^|[.!?;]\s")
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
-
-
-# ---------------------------------------------------------------- numbers
 
 
 def measures(case: Case) -> Iterator[Warning]:
@@ -174,9 +174,6 @@ def _is_measure(text: str, number: Number) -> bool:
     if moment or number.unit == "%" or CLOCK.match(text, number.end):
         return False
     return number.unit is not None or is_course(text, number.start)
-
-
-# ---------------------------------------------------------------- limits and repeats
 
 
 def limits(case: Case) -> Iterator[Warning]:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from planner_ft.document.warnings.asked import UNKNOWN
-from planner_ft.document.warnings.case import Case
-from planner_ft.document.warnings.kinds import Warning, quoted, warning
+from planner_ft.document.warnings.case import Case, Warning, quoted, warning
 from planner_ft.facts import (
     SCORING,
     WAYPOINT,
@@ -23,13 +22,11 @@ from planner_ft.facts import (
 )
 from planner_ft.facts.words import edit_distance, words
 from planner_ft.planning.shapes import pass_ends, shape_points
-from planner_ft.vocabulary import Parameter, Vocabulary
+from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
-EDITS = 2
-"""Edits by which a word of a task prompt may differ from one of the command."""
-BARE = re.compile(r"[-−–]?\d+(?:\.\d+)?")
-"""A number without a unit."""
+EDITS = 2  # edits by which a word of a task prompt may differ from one of the command
+BARE = re.compile(r"[-−–]?\d+(?:\.\d+)?")  # a number without a unit
 
 
 def unread(case: Case) -> Iterator[Warning]:
@@ -140,13 +137,10 @@ def unsaid_skills(case: Case) -> Iterator[Warning]:
                 yield {**made, "parameter": parameter.name}
 
 
-Value = tuple[str, Parameter, Any]
-"""A skill's name, a parameter of it, and its value."""
+Value = tuple[str, Parameter, Any]  # a skill's name, a parameter of it, and its value
 
 
-def _models(
-    task: Mapping[str, Any], proposed: list[dict[str, Any]], known: Vocabulary
-) -> Iterator[Value]:
+def _models(task: Entry, proposed: list[dict[str, Any]], known: Vocabulary) -> Iterator[Value]:
     """The values of a task's skills that the model proposed, in steps that nobody added."""
     added = {(mark["step"], mark["name"]) for mark in task.get("added", ())}
     for number, step in enumerate(task.get("skill_sequence") or ()):
@@ -157,7 +151,7 @@ def _models(
                 yield entry
 
 
-def _values(step: Mapping[str, Any], known: Vocabulary) -> Iterator[Value]:
+def _values(step: Entry, known: Vocabulary) -> Iterator[Value]:
     """Values of a step's skills with parameters; a destination's coordinates as one."""
     for _role, skill in step_skills(step):
         name, given, motion = skill["name"], skill["parameters"], known.motion.of(skill["name"])

@@ -6,9 +6,9 @@ from dataclasses import asdict
 from typing import Any
 
 from planner_ft.document import PlanDocument, differences
-from planner_ft.document.brief import brief
 from planner_ft.document.track import track
-from planner_ft.document.warnings.kinds import gravest_first, meaning
+from planner_ft.document.tree import brief
+from planner_ft.document.warnings.case import gravest_first, meaning
 from planner_ft.review.changes import tampered
 from planner_ft.review.desk import Desk
 from planner_ft.support.errors import PlannerError

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planner_ft.document.warnings import KINDS, NOTES, SERIOUS
-from planner_ft.document.warnings.kinds import gravest_first, meaning, quoted, warning
+from planner_ft.document.warnings.case import gravest_first, meaning, quoted, warning
 
 
 def test_every_kind_has_a_severity_and_a_name_of_its_own() -> None:
