@@ -23,12 +23,8 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
 from planner_ft.vocabulary.plans import LEVELS, Level, plan_problems
 
-DEFAULT_COUNTS: dict[Level, dict[str, int]] = {
-    "mission": {"train": 125, "validation": 25, "test": 25},
-    "task": {"train": 10_000, "validation": 500, "test": 500},
-}
-"""The published sizes of the splits. At task level, test_unseen has as many records as test."""
-
+TASKS = {"train": 10_000, "validation": 500, "test": 500, "test_unseen": 500}
+"""The published sizes of the splits at task level."""
 SYNTHETIC = "mission-synthetic"
 """The set of synthetic missions, beside the curated one."""
 ABOUT = "labelling.md"
@@ -176,13 +172,13 @@ def _sampled(
     name: str, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
-    synthetic, defaults = name == SYNTHETIC, DEFAULT_COUNTS["task"]
+    synthetic = name == SYNTHETIC
     asked: dict[Any, int | None] = settings.counts("task")
     asked = {"train": settings.synthetic} if synthetic else asked
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():
-            count = number or defaults[split.removesuffix("_unseen")]
+            count = number or TASKS[split]
             records = splits[split] = []
             samples = (
                 sample_missions(settings.seed, count, vocabulary)

@@ -23,8 +23,7 @@ from numpy.typing import NDArray
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.facts.words import known_words
-from planner_ft.prompts.render import end_of_turn_ids, prompt_frame
-from planner_ft.prompts.text import answer_text
+from planner_ft.prompts.render import prompt_frame, render_sample
 from planner_ft.vocabulary import Task, Vocabulary
 
 if TYPE_CHECKING:
@@ -86,19 +85,18 @@ def packed(
 ) -> Pack:
     """A pack of these records; samples of more than `longest` tokens are left out."""
     seen = view(vehicle, records, others, rng)
-    before, after = prompt_frame("mission", tokenizer, seen.vocabulary, with_vocabulary=True)
-    prefix = tokenizer.encode(before, add_special_tokens=False)
-    behind, end = tokenizer.encode(after, add_special_tokens=False), end_of_turn_ids(tokenizer)[0]
+    frames = (
+        prompt_frame("mission", tokenizer, seen.vocabulary, with_vocabulary=shown)[0]
+        for shown in (True, False)
+    )
+    prefix, other = (tokenizer.encode(text, add_special_tokens=False) for text in frames)
     pack: Pack = [(np.array(prefix, dtype=np.int64), len(prefix))]
     for record in map(seen.record, records):
-        user = tokenizer.encode(
-            record["prompt"].strip(), add_special_tokens=False, split_special_tokens=True
-        )
-        text = answer_text("mission", record, seen.vocabulary)
-        answer = tokenizer.encode(text, add_special_tokens=False)
-        ids = [*user, *behind, *answer, end]
+        # All but the prefix is the same with the vocabulary and without it.
+        alone = render_sample("mission", record, tokenizer, seen.vocabulary)
+        ids = np.array(alone.input_ids[len(other) :], dtype=np.int64)
         if len(ids) <= longest:
-            pack.append((np.array(ids, dtype=np.int64), len(user) + len(behind)))
+            pack.append((ids, alone.prompt_length - len(other)))
     return pack
 
 

@@ -15,6 +15,7 @@ from planner_ft.data.missions import sample_missions
 from planner_ft.document.own_vehicle import new_vehicle
 from planner_ft.pretraining.corpus import Mixture, encode_shard, load_shard
 from planner_ft.pretraining.grids import grid_of, parts_of
+from planner_ft.pretraining.loop import PretrainSettings, completion_loss, new_model
 from planner_ft.pretraining.model import CAUSAL, register_attention
 from planner_ft.pretraining.packs import IGNORE, packed, view
 from planner_ft.prompts import render_sample
@@ -114,3 +115,12 @@ def test_a_shard_holds_its_packs(tokenizer: Any, tmp_path: Path) -> None:
     assert grid_of([], packs, 8192, seed=0).tokens == sum(
         len(ids) for ids, _prompt in itertools.chain(*packs)
     )
+
+
+def test_processes_share_the_packs_of_a_batch(pack: Any, tokenizer: Any) -> None:
+    settings = PretrainSettings(hidden=32, layers=1, heads=2, feed_forward=64)
+    model: Any = new_model(settings, len(tokenizer), {"bos": 1, "eos": 2, "pad": 0})
+    grid = grid_of(pack[1:3], [pack, pack], 8192, seed=0)
+    whole = completion_loss(model, model.model, grid).item()
+    shares = [completion_loss(model, model.model, grid, rank, 2).item() for rank in range(2)]
+    assert sum(shares) == pytest.approx(whole, rel=2e-3) and max(shares) < 0.9 * whole
