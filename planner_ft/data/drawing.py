@@ -8,12 +8,13 @@ from typing import Any
 from planner_ft.data.filling import UNPLACED, Filling, is_name
 from planner_ft.data.formulas import is_formula, operands, worked_out
 from planner_ft.data.mission_binding import CLAUSE, IT, OBJECTS, Line
-from planner_ft.data.mission_plan import Intent, Target, point_text
+from planner_ft.data.mission_plan import Intent, Target
 from planner_ft.data.numbers import PLACES, Value, digits, pick, position
 from planner_ft.data.templates.grammar import Call, Nodes, Slot, TemplateError, base_of, choose
 from planner_ft.data.templates.render import PIECE, article_for
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Task
+from planner_ft.vocabulary.limits import written
 
 BARE = 0.5
 """Share of the sizes before another size that are said without a unit."""
@@ -175,7 +176,7 @@ class Drawing(Filling):
 
     def _named(self, slot: Slot) -> str:
         if target := self.targets.get(slot.key):
-            return point_text(self._place_of(slot.key)) if slot.base == "P" else target.name
+            return written(self._place_of(slot.key)) if slot.base == "P" else target.name
         if value := self.values.get(slot.key):
             return str(value.value) if slot.base in self.words else value.text
         raise TemplateError(f"a remark needs {{{slot.key}}}, which one alternative lacks")

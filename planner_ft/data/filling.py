@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.data import formulas
 from planner_ft.data.formulas import HOME, is_formula, operands, worked_out
 from planner_ft.data.mission_binding import CLAUSE, LIMIT, Bound, Line
-from planner_ft.data.mission_plan import Target, point_text
+from planner_ft.data.mission_plan import Target
 from planner_ft.data.numbers import WRITTEN, Value, bearing, knots, pick
 from planner_ft.data.templates.grammar import Chosen, Slot, base_of, fail
 from planner_ft.data.values import draw_number, draw_point
 from planner_ft.facts.geometry import Point, point
+from planner_ft.vocabulary.limits import written
 
 if TYPE_CHECKING:
     from planner_ft.data.missions import MissionSampler
@@ -155,7 +156,7 @@ class Filling(Chosen):
             doubt = rng.random() < DOUBTFUL
             target = replace(target, position=self._point(), doubtful=doubt)
         if near in self.targets:
-            target = replace(target, whereabouts=f"near {point_text(self._place_of(near))}")
+            target = replace(target, whereabouts=f"near {written(self._place_of(near))}")
         spot = any(line.task is not None and line.task.docks for line in lines)
         return replace(target, spot=spot, on_site=any(line.here for line in lines))
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import digits
 from planner_ft.data.task.phrasebook import spaced
 from planner_ft.data.templates.grammar import Slot, choose, parse_text
 from planner_ft.facts.geometry import Point, tidy
 from planner_ft.vocabulary import Task, Vocabulary
+from planner_ft.vocabulary.limits import written
 from planner_ft.vocabulary.plans import TASK_KEYS
 
 
@@ -52,7 +52,7 @@ class Target:
     def name(self) -> str:
         """The target as the plan's texts call it: "the green barrel", "[45, 10]"."""
         if self.description is None:
-            return self.identity or point_text(self.position or (0, 0))
+            return self.identity or written(self.position or (0, 0))
         return f"the {self.description}" if self.article else self.description
 
     @property
@@ -60,7 +60,7 @@ class Target:
         """The name with its place: "the met mast at [120, -35]"."""
         if self.description is None or self.position is None:
             return self.name
-        return f"{self.name} at {point_text(self.position)}"
+        return f"{self.name} at {written(self.position)}"
 
 
 @dataclass(frozen=True)
@@ -84,11 +84,6 @@ class Planned:
     parameters: dict[str, Any]
     intent: Intent
     inserted: bool = False
-
-
-def point_text(position: Point) -> str:
-    """The position as the plan's texts hold it: "[45, 10]"."""
-    return f"[{digits(position[0])}, {digits(position[1])}]"
 
 
 def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
@@ -205,14 +200,14 @@ class PlanTexts:
             given["of"] = f"{'of' if target.description else 'at'} {target.name}"
             if part:
                 given["of"] = f"of the {part} of {target.name}"
-            around = f"around {point_text(target.position)}" if target.position is not None else ""
+            around = f"around {written(target.position)}" if target.position is not None else ""
             if around or target.whereabouts:
                 given["whereabouts"] = around or target.whereabouts
         for name, value in planned.parameters.items():
             kind = task.by_name[name].type
             if kind == "position":
                 unknown = value == list(self.vocabulary.unresolved)
-                given["position"] = "where it has been found" if unknown else point_text(value)
+                given["position"] = "where it has been found" if unknown else written(value)
                 given |= {"found": "once it has been found"} if unknown else {}
             elif kind == "texts":
                 given[name] = ", then ".join(f"the {item}" for item in value)
@@ -229,13 +224,13 @@ class PlanTexts:
         for planned in plan:
             target = planned.intent.target
             if planned.intent.home:
-                yield f"Home is {point_text(self.vocabulary.home)}."
+                yield f"Home is {written(self.vocabulary.home)}."
             if target is None:
                 continue
             if planned.task.title == self.vocabulary.locate and target.position is None:
                 yield f"The position of {target.name} is unknown until it has been found."
             if target.doubtful and target.position is not None:
-                yield f"{point_text(target.position)} is taken as correct."
+                yield f"{written(target.position)} is taken as correct."
             if target.on_site:
                 yield f"The vehicle lies at {target.name}."
             if target.spot and target.position is None:

@@ -17,7 +17,7 @@ from planner_ft.data.labels import WORDS, unstated
 from planner_ft.facts import WAYPOINT, read, read_input
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
-from planner_ft.vocabulary import Task, Vocabulary
+from planner_ft.vocabulary import Task, Vocabulary, replay
 from planner_ft.vocabulary.replay import START, sound
 
 NAMED_SIDES = re.compile(r"\b(?:wide|width|long|length|broad)\b", re.IGNORECASE)
@@ -42,11 +42,6 @@ class Step:
     def place(self) -> list[float] | None:
         name = self.task.position_parameter
         return self.parameters.get(name) if name else None
-
-    def first(self, kind: str) -> str | None:
-        """The value of the first parameter of this type."""
-        names = (item.name for item in self.task.parameters if item.type == kind)
-        return next((str(self.parameters[name]) for name in names if name in self.parameters), None)
 
     def __str__(self) -> str:
         return f"tasks[{self.index}] {self.task.title}"
@@ -91,7 +86,7 @@ class _Rules:
         for number, step in enumerate(self.steps):
             unresolved = step.place == self.unresolved
             if step.task.title == self.locate:
-                target = step.first("text") or ""
+                target = replay.target(step.task, step.parameters)
                 if target.lower() in searched:
                     yield (
                         f"{step}: {target!r} was searched by {searched[target.lower()]} already;"
@@ -102,8 +97,8 @@ class _Rules:
                     yield from self._needless_search(step, target, self.steps[number + 1 :])
             elif unresolved and not searched and not step.task.docks:
                 yield f"{step}: the place is unresolved and no {self.locate} comes before it"
-            if unresolved and step.first("id") is not None:
-                place = step.task.position_parameter
+            by_name, place = step.task.by_name, step.task.position_parameter
+            if unresolved and any(by_name[name].type == "id" for name in step.parameters):
                 yield f"{step}: an identifier needs no place; leave out {place}"
 
     def _needless_search(self, step: Step, target: str, following: list[Step]) -> Iterator[str]:
