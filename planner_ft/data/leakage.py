@@ -117,18 +117,19 @@ def _shingles(text: str) -> Shingles:
 
 
 def _most_similar(
-    queries: Matrix, documents: Matrix, similarity: Callable[[Any, int], Any]
+    queries: Matrix, documents: Matrix, sizes: Sequence[Any] = ()
 ) -> Iterator[tuple[int, float]]:
     """For each query the place of the most similar document, the first of equals, and how similar
-    it is; `similarity` turns the products of a query with all documents into similarities.
+    it is: by their product or, with the sizes of the sets that both are, by Jaccard.
     """
     for start in range(0, queries.shape[0], ROWS):
-        block = (queries[start : start + ROWS] @ documents.T).toarray()
-        for place, products in enumerate(block, start):
-            # Rounded, so that the choice among equals does not depend on the order of summation.
-            similar = np.round(similarity(products, place), 9)
-            best = int(np.argmax(similar))
-            yield best, float(similar[best])
+        rows = slice(start, start + ROWS)
+        similar = (queries[rows] @ documents.T).toarray()
+        if sizes:
+            similar = similar / (sizes[0][rows, None] + sizes[1] - similar)
+        # Rounded, so that the choice among equals does not depend on the order of summation.
+        similar = np.round(similar, 9)
+        yield from zip(similar.argmax(1).tolist(), similar.max(1).tolist(), strict=True)
 
 
 def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], dict[int, int]]:
@@ -140,12 +141,8 @@ def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], di
     sets = {name: counter.transform(texts) for name, texts in splits.items()}
     found: dict[tuple[str, str], dict[int, int]] = {}
     for second, first in ((b, a) for place, b in enumerate(splits) for a in [*splits][:place]):
-        counts = [np.diff(sets[name].indptr) for name in (second, first)]
-
-        def similar(shared: Any, place: int, counts: list[Any] = counts) -> Any:
-            return shared / (counts[0][place] + counts[1] - shared)
-
-        near = enumerate(_most_similar(sets[second], sets[first], similar))
+        sizes = [np.diff(sets[name].indptr) for name in (second, first)]
+        near = enumerate(_most_similar(sets[second], sets[first], sizes))
         found[second, first] = {here: there for here, (there, like) in near if like >= NEAR}
     return found
 
@@ -159,7 +156,7 @@ def nearest_neighbour(level: Level, split: str, train: Records, test: Records) -
 
     weights: Any = TfidfVectorizer(analyzer=_terms)
     documents = weights.fit_transform(train)
-    found = list(_most_similar(weights.transform(test), documents, lambda cosines, _place: cosines))
+    found = list(_most_similar(weights.transform(test), documents))
     scores = []
     for record, (neighbour, _similarity) in zip(test, found, strict=True):
         expected, answer = (
