@@ -151,14 +151,10 @@ def dataset_card(
     """
     import jinja2
 
-    environment = jinja2.Environment(
-        undefined=jinja2.StrictUndefined, keep_trailing_newline=True, autoescape=False
-    )
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, keep_trailing_newline=True)
     template = environment.from_string(Path(__file__).with_name("card.md.j2").read_text("utf-8"))
-    total = sum(map(len, splits.values()))
-    found = {split: _found(level, records) for split, records in splits.items()}
-    figures = {split: diversity(records) for split, records in splits.items() if records}
-
+    records = list(itertools.chain(*splits.values()))
+    found = {split: _found(level, of_split) for split, of_split in splits.items()}
     return template.render(
         figures=lambda key, name: [of[key][name] for of in found.values()],
         level=level,
@@ -166,17 +162,15 @@ def dataset_card(
         vocabulary=vocabulary,
         chat=chat,
         seed=seed,
-        size=next((name for limit, name in SIZES if total < limit), "n>1M"),
+        size=next((name for limit, name in SIZES if len(records) < limit), "n>1M"),
         splits=splits,
         found=found,
         tags=tags_of(vocabulary) if any(of["tags"] for of in found.values()) else [],
         rules=TAGS,
         lengths=_lengths(level, splits),
-        diversity=figures,
+        diversity={split: diversity(of) for split, of in splits.items() if of},
         leakage=leakage,
-        families=Counter(
-            record["family"] for records in splits.values() for record in records
-        ).most_common(FAMILIES),
+        families=Counter(record["family"] for record in records).most_common(FAMILIES),
     )
 
 
@@ -203,11 +197,10 @@ def _pairs(level: Level, records: Records) -> Iterator[tuple[str, str]]:
 
 def _lengths(level: Level, splits: Splits) -> Iterator[list[Any]]:
     """[measure, split, minimum, median, 90th percentile, maximum]."""
+    entries = "tasks" if level == "mission" else "steps"
     measures: dict[str, Callable[[Mapping[str, Any]], int]] = {
         "words in the prompt": lambda record: len(words(record["prompt"])),
-        f"{'tasks' if level == 'mission' else 'steps'} in the plan": lambda record: len(
-            record["expected"][list_key(level)]
-        ),
+        f"{entries} in the plan": lambda record: len(record["expected"][list_key(level)]),
         "characters in the plan": lambda record: len(compact_json(record["expected"])),
     }
     for name, measure in measures.items():
