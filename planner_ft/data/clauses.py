@@ -92,9 +92,7 @@ class Clause(Drawing):
         elif self.it is not None:
             self.targets[IT] = self.it
 
-    def effect(
-        self, planned: Sequence[Planned], covered: set[int], *, alone: bool
-    ) -> Effect | None:
+    def effect(self, planned: list[Planned], covered: set[int], *, alone: bool) -> Effect | None:
         """What the clause adds to a plan of which it covers the tasks at these places; None where
         it does not fit. `alone`: these tasks are one thing that was asked for.
         """

@@ -189,9 +189,7 @@ class Composer:
         texts, config = self.sampler.texts, self.sampler.config
         excluded = [title for one in self.drawings for title in one.template.excluded]
         remarks = [drawing.remarks() for drawing in self.drawings]
-        constraints, assumptions = (
-            list(itertools.chain(*each)) for each in zip(*remarks, strict=True)
-        )
+        constraints, assumptions = (list(itertools.chain(*of)) for of in zip(*remarks, strict=True))
         notes = [*map(texts.excluded, excluded), *constraints]
         if not self.planned and excluded:
             notes.append(config.get("cancelled", "No task is left."))

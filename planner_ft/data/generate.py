@@ -163,9 +163,8 @@ def _make(
 
 def _chat(id_: str, chat: list[dict[str, str]]) -> str:
     """For other trainers: all messages, and the answer apart from what comes before it."""
-    return files.compact_json(
-        {"id": id_, "messages": chat, "prompt": chat[:-1], "completion": chat[-1:]}
-    )
+    parts = {"prompt": chat[:-1], "completion": chat[-1:]}
+    return files.compact_json({"id": id_, "messages": chat, **parts})
 
 
 def _sampled(

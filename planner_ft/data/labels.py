@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import itertools
 import re
-import tomllib
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -17,15 +16,13 @@ from planner_ft.facts import Input, missing_words, near, read_input, words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions
 from planner_ft.facts.units import in_base_units
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, read_toml
 from planner_ft.vocabulary import Parameter, Vocabulary
 from planner_ft.vocabulary.plans import MISSION_KEYS, plan_names, step_skills, value_problem
 
 Records = Sequence[Mapping[str, Any]]
 
-TAGS: dict[str, dict[str, Any]] = tomllib.loads(
-    Path(__file__).with_name("tags.toml").read_text("utf-8")
-)
+TAGS: dict[str, dict[str, Any]] = read_toml(Path(__file__).with_name("tags.toml"))
 """By tag what a command with it exercises, and which tasks its record has (tags.toml)."""
 WORDS = {
     tag: re.compile(rf"\b(?:{of['words']})\b", re.I) for tag, of in TAGS.items() if "words" in of
@@ -181,14 +178,12 @@ def completeness_problems(record: dict[str, Any], vocabulary: Vocabulary) -> Ite
             yield f"expected: {lost} in no parameter and no constraint; if it is told and not asked for, tag {TOLD} says so"
 
 
-def _invented_numbers(
-    expected: dict[str, Any], prompt: str, vocabulary: Vocabulary
-) -> Iterator[str]:
+def _invented_numbers(plan: dict[str, Any], prompt: str, vocabulary: Vocabulary) -> Iterator[str]:
     """Numbers in the plan's texts that neither the command nor a parameter has."""
-    tasks = expected["tasks"]
+    tasks = plan["tasks"]
     texts = {f"tasks[{index}].task_prompt": task["task_prompt"] for index, task in enumerate(tasks)}
     for key in MISSION_KEYS[1:]:
-        texts |= {f"{key}[{index}]": text for index, text in enumerate(expected[key])}
+        texts |= {f"{key}[{index}]": text for index, text in enumerate(plan[key])}
     given = [[task["parameters"] for task in tasks], vocabulary.home, vocabulary.unresolved]
     numbers = (*read_numbers(prompt), *read_numbers(compact_json(given)))
     known = {abs(number) for found in numbers for number in (found.value, found.said)}

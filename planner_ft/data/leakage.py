@@ -82,9 +82,7 @@ def leakage_report(
         "level": level,
         "method": METHOD,
         "counts": {name: len(records) for name, records in splits.items()},
-        "duplicates_within": {
-            name: len(texts) - len(set(texts)) for name, texts in written.items()
-        },
+        "duplicates_within": {name: len(of) - len(set(of)) for name, of in written.items()},
         "overlaps": overlaps,
         "baseline": baselines,
         "memory_test": {item["split"]: item["sequence"] >= MEMORY_TEST for item in baselines},

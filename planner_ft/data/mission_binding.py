@@ -19,10 +19,9 @@ OBJECTS = ("ID", "T", "P")
 CLAUSE, IT = "C", "it"
 """Slots for a clause, and for the target that a clause takes up again."""
 _MEASURED = {"distance": "m", "range": "m", "speed": "m/s", "duration": "s"}
-_VALUES = (*(Parameter(name, "number", unit) for name, unit in _MEASURED.items()),)
-LIMIT = Task(
-    "Limit", "", "", "none", "", parameters=(*_VALUES, Parameter("polygon", "polygon", "m"))
-)
+_VALUES = tuple(Parameter(name, "number", unit) for name, unit in _MEASURED.items())
+_AREA = Parameter("polygon", "polygon", "m")
+LIMIT = Task("Limit", "", "", "none", "", parameters=(*_VALUES, _AREA))
 """What the values of limits are drawn for; [task.Limit] in NAME.missions.toml has their ranges."""
 Owners = dict[str, tuple[Task, Parameter]]
 """The parameter whose values a slot has."""

@@ -123,9 +123,7 @@ def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
             continue
         parameters: dict[str, Any] = {}
         if target is not None and target.identity is not None:
-            parameters = {
-                item.name: target.identity for item in task.parameters if item.type == "id"
-            }
+            parameters = {one.name: target.identity for one in task.parameters if one.type == "id"}
         own = task.position_parameter
         if own and target is not None and (target.identity is None or target.position):
             parameters[own] = place(target)

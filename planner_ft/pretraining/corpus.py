@@ -82,15 +82,11 @@ class Mixture:
 
 def stream(vocabulary: Vocabulary, seed: int, mixture: Mixture) -> Iterator[Drawn]:
     """Endless mixed samples of both levels; some task inputs are those of synthetic missions."""
-    missions, tasks = (
-        sample_missions(seed, None, vocabulary),
-        sample_tasks(vocabulary, seed, None, "train"),
-    )
+    missions = sample_missions(seed, None, vocabulary)
+    tasks = sample_tasks(vocabulary, seed, None, "train")
     handed_down = mission_tasks(vocabulary, seed + HANDED_DOWN_SEED)
-    others = [
-        (one, sample_missions(seed, None, one))
-        for one in (vehicles_in(mixture.folder) if mixture.folder and mixture.vehicles else ())
-    ]
+    fleet = vehicles_in(mixture.folder) if mixture.folder and mixture.vehicles else ()
+    others = [(one, sample_missions(seed, None, one)) for one in fleet]
     draw, words = np.random.default_rng(seed), Random(f"{seed} unfamiliar")
     vehicles, emphasis = Random(f"{seed} vehicles"), Random(f"{seed} emphasis")
     stressed = missions_with_skills(seed + EMPHASIS_SEED, None, vocabulary, mixture.subjects)
@@ -124,11 +120,11 @@ def vehicles_in(folder: Path) -> Sequence[Vocabulary]:
     return [load_vocabulary(path / f"{path.name}.toml") for path in paths]
 
 
-def tokenizer_texts(
-    vocabulary: Vocabulary, seed: int, count: int, mission_share: float
-) -> Iterator[str]:
-    """Texts of `count` samples to train the tokenizer on: each input and each answer."""
-    samples = stream(vocabulary, seed, Mixture(mission_share))
+def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, share: float) -> Iterator[str]:
+    """Texts of `count` samples, this share of them missions, to train the tokenizer on: each input
+    and each answer.
+    """
+    samples = stream(vocabulary, seed, Mixture(share))
     for _ in range(count):
         level, record, vehicle = next(samples)
         yield user_text(level, record, vehicle)

@@ -275,13 +275,11 @@ def _summed(model: nn.Module, loss: Tensor, world: int) -> Tensor:
     return loss
 
 
-def _log(
-    folder: Path, state: dict[str, Any], loss: float, rate: float, seconds_left: float
-) -> None:
+def _log(folder: Path, state: dict[str, Any], loss: float, rate: float, left: float) -> None:
     line = {"step": state["step"], "tokens": state["tokens"], "loss": round(loss, 4)}
     line["tokens_per_s"] = round(rate)
     done = f"{line['step']:6d}  {line['tokens'] / 1e6:6.2f} M tokens  loss {line['loss']:.4f}"
-    print(f"{done}  {rate:6.0f} tok/s  {seconds_left / 60:5.1f} min left", flush=True)
+    print(f"{done}  {rate:6.0f} tok/s  {left / 60:5.1f} min left", flush=True)
     with open(folder / "log.jsonl", "a", encoding="utf-8") as stream:
         stream.write(json.dumps(line) + "\n")
 

@@ -147,9 +147,7 @@ class View:
             }
             for task in expected["tasks"]
         ]
-        texts = {
-            key: list(map(self._said, expected[key])) for key in ("assumptions", "constraints")
-        }
+        texts = {key: [*map(self._said, expected[key])] for key in ("assumptions", "constraints")}
         return {"prompt": record["prompt"], "expected": {"tasks": tasks, **texts}}
 
     def _placed(self, value: Any) -> Any:

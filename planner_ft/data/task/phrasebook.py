@@ -143,9 +143,7 @@ class Phrasebook:
         self.patterns: dict[str, dict[str, Any]] = raw.get("pattern", {})
         moving = (skill for skill in reversed(vocabulary.skills) if skill.motion)
         self.motions: dict[str, str] = {str(skill.motion): skill.name for skill in moving}
-        self.roles = {
-            role: [skill.name for skill in vocabulary.skills_in_role(role)] for role in ROLES
-        }
+        self.roles = {role: [one.name for one in vocabulary.skills_in_role(role)] for role in ROLES}
         self.verbs = {"run", *_VERB.findall(compact_json(raw))}
 
     def pattern(self, name: str, title: str) -> Sequence[str]:

@@ -184,16 +184,13 @@ def aside(text: str, skills: set[str], c: Context) -> str:
     if roll < 0.115 and not book.unseen:
         refused = [entry.none for name, entry in book.skills.items() if name not in skills]
         if phrases := [phrase for of_skill in refused for phrase in of_skill]:
-            phrase = pick(phrases, rng)
-            return pick(
-                (f"{text} {phrase[0].upper()}{phrase[1:]}.", f"{text[:-1]}, {phrase}."), rng
-            )
+            more = pick(phrases, rng)
+            return pick((f"{text} {more[0].upper()}{more[1:]}.", f"{text[:-1]}, {more}."), rng)
     elif roll < 0.14 and "negation" in known:
         idle = [name for name in c.task.skills.get("perception", ()) if name not in skills]
         if bare := [found for name in idle if (found := book.skills[name].bare)]:
-            return (
-                f"{text} {pick(known['negation'], rng).format(c.say(pick(pick(bare, rng), rng)))}"
-            )
+            form = pick(known["negation"], rng)
+            return f"{text} {form.format(c.say(pick(pick(bare, rng), rng)))}"
     return text
 
 

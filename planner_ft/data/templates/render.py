@@ -190,7 +190,7 @@ def garbled(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """With every second to fifth word mistyped."""
     rate = rng.choice((0.2, 0.3, 0.45))
     changed = _each(
-        pieces, lambda word: _mistyped(word, rng) if _free(word) and rng.random() < rate else word
+        pieces, lambda one: _mistyped(one, rng) if _free(one) and rng.random() < rate else one
     )
     return small(changed, rng) if rng.random() < 0.5 else changed
 
@@ -198,9 +198,7 @@ def garbled(pieces: list[PIECE], rng: Random) -> list[PIECE]:
 def shortened(pieces: list[PIECE], rng: Random) -> list[PIECE]:
     """As it is thumbed into a telephone."""
     rate, short = rng.choice((0.3, 0.6, 0.9)), LISTS["short"]
-    changed = _each(
-        pieces, lambda word: short[word] if word in short and rng.random() < rate else word
-    )
+    changed = _each(pieces, lambda one: short[one] if one in short and rng.random() < rate else one)
     return small(changed, rng) if rng.random() < 0.6 else changed
 
 
