@@ -127,12 +127,8 @@ class Clause(Drawing):
             item, own = effect.planned[place], place in covered
             transit, home = item.task.title == self.vocabulary.transit, item.intent.home
             able = name in item.task.skills.get("perception", ())
-            fits = {
-                "mission": able,
-                "home": home,
-                "way": own and transit and not home,
-                "task": own and not item.inserted and (able or transit),
-            }
+            fits = {"mission": able, "home": home, "way": own and transit and not home}
+            fits["task"] = own and not item.inserted and (able or transit)
             if fits[scope] and (not titles or item.task.title in titles):
                 places.append(place)
         effect.about.add(name)

@@ -56,7 +56,7 @@ class Composer:
         given = sampler.vocabulary, sampler.words
         self.drawings = [Drawing(sampler, bind(one, *given), rng) for one in templates]
         self.intents = [
-            [_renamed(intent, number) for intent in drawing.intents()]
+            [_renamed(drawing.intent(line), number) for line in drawing.lines]
             for number, drawing in enumerate(self.drawings)
         ]
         self.planned = label(itertools.chain(*self.intents), sampler.vocabulary)

@@ -113,16 +113,13 @@ class Drawing(Filling):
 
     # ------------------------------------------------------------ plan
 
-    def intents(self) -> list[Intent]:
-        """What is asked for, in the order of execution."""
-        return [self._intent(line) for line in self.lines]
-
     def remarks(self) -> list[list[str]]:
         """The template's own constraints, and its assumptions, as the plan holds them."""
         texts = ([self._filled(nodes) for nodes in group] for group in self.template.remarks)
         return [[f"{one[0].upper()}{one[1:].rstrip('.')}." for one in group] for group in texts]
 
-    def _intent(self, line: Line) -> Intent:
+    def intent(self, line: Line) -> Intent:
+        """What is asked for by a line of the plan."""
         if line.task is None:
             return Intent(self.vocabulary.task[self.vocabulary.transit], home=True)
         said = (key for key in line.objects if base_of(key) != "P" or key in self.said)

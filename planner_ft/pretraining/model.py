@@ -73,10 +73,8 @@ def shared_attention_backward(
         of_weights = torch.bmm(own, _joined(value, start, end, shown).transpose(1, 2))
         of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
         of_query[:, start:end] = torch.bmm(of_scores, _joined(key, start, end, shown)) * scale
-        for total, left, right in (
-            (of_key, of_scores, query[:, start:end] * scale),
-            (of_value, weights, own),
-        ):
+        scaled = query[:, start:end] * scale
+        for total, left, right in ((of_key, of_scores, scaled), (of_value, weights, own)):
             found, common = torch.bmm(left.transpose(1, 2), right), shown[1] - shown[0]
             total[:, shown[0] : shown[1]] += found[:, :common]
             total[:, start:end] += found[:, common:]

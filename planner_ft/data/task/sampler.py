@@ -265,12 +265,8 @@ def task_record(
     long = len(expected["skill_sequence"]) > LONGEST
     if long or plan_problems("task", expected, vocabulary, strict=True):
         return None
-    return {
-        "task": task.title,
-        "parameters": canonical_parameters(values, task),
-        "prompt": entry["task_prompt"],
-        "expected": expected,
-    }
+    given = {"task": task.title, "parameters": canonical_parameters(values, task)}
+    return {**given, "prompt": entry["task_prompt"], "expected": expected}
 
 
 @functools.cache

@@ -204,10 +204,8 @@ def shortened(pieces: list[PIECE], rng: Random) -> list[PIECE]:
 
 def small(pieces: list[PIECE], _rng: Random) -> list[PIECE]:
     """In small letters and without the last stop; values keep their capitals."""
-    return [
-        *_each(pieces[:-1], str.lower),
-        *_each(pieces[-1:], lambda word: word.lower().rstrip(".")),
-    ]
+    last = _each(pieces[-1:], lambda word: word.lower().rstrip("."))
+    return [*_each(pieces[:-1], str.lower), *last]
 
 
 def careless(pieces: list[PIECE], rng: Random) -> list[PIECE]:
