@@ -7,11 +7,9 @@ from typing import Annotated
 import typer
 
 from planner_ft.cli.bench import bench, compare, report, score
-from planner_ft.cli.candidates import candidates, doctor
 from planner_ft.cli.data import gen_data, validate, vehicle, vocabulary
-from planner_ft.cli.export import export, push
-from planner_ft.cli.plan import plan
-from planner_ft.cli.review import review, verify
+from planner_ft.cli.models import candidates, doctor, export, push
+from planner_ft.cli.review import plan, review, verify
 from planner_ft.cli.simulate import simulate, skill
 from planner_ft.cli.train import calibrate, learning_curve, train
 from planner_ft.support.terminal import show

@@ -6,15 +6,30 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.cli.options import AGAIN, Options, command, typed
-from planner_ft.cli.progress import resume_command, status, working
+from planner_ft.cli.options import (
+    AGAIN,
+    Options,
+    command,
+    resume_command,
+    show_table,
+    status,
+    typed,
+    working,
+)
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import IncompleteError, PlannerError
+from planner_ft.support.files import indented_json, write_json, write_text
+from planner_ft.support.geodesy import Origin
+from planner_ft.support.ranks import join_ranks, started_with_others
 from planner_ft.support.terminal import show, terminal
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import check_level
 
 if TYPE_CHECKING:
+    from planner_ft.benchmark.field.cases import Case, Outcome
     from planner_ft.benchmark.results import Results
     from planner_ft.benchmark.settings import BenchSettings
+    from planner_ft.planning import Planner
 
 RUN = (
     *("level", "candidates", "configurations", "data", "limit", "adapter", "quantization"),
@@ -38,8 +53,6 @@ def bench(o: Options) -> None:
         raise PlannerError(f"--batch-size {o.batch_size}: must be a number or auto") from None
     named = o.given(*RUN, *SERVER)
     if o.field or o.level == "both":
-        from planner_ft.cli.field import run_whole
-
         run_whole(o, named)
     elif o.suite is not None:
         _check_file_alone("suite", o.suite, named, ("limit", "latency_samples"))
@@ -57,8 +70,6 @@ def score(o: Options) -> None:
     from planner_ft.benchmark import folder
     from planner_ft.benchmark.samples import default_data, load_bench_data
     from planner_ft.benchmark.submission import score_predictions, score_run
-    from planner_ft.vocabulary import load_vocabulary
-    from planner_ft.vocabulary.plans import check_level
 
     with alone(o.out, "--out", "a benchmark"):
         if o.out is not None:
@@ -84,7 +95,6 @@ def compare(o: Options) -> None:
     """Compare rows of finished runs."""
     from planner_ft.benchmark import compare
     from planner_ft.benchmark.folder import check_folder
-    from planner_ft.support.files import indented_json, write_json, write_text
 
     if o.same and o.against is not None:
         kinds = f"--same compares rows of the same name and --against {o.against} one row with all"
@@ -126,7 +136,6 @@ def report(o: Options) -> None:
 def _settings(o: Options) -> BenchSettings:
     """Settings from the flags that were given; the model of --endpoint is the candidate."""
     from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
-    from planner_ft.vocabulary.plans import check_level
 
     values, served = o.given(*RUN), o.given(*SERVER)
     server = None
@@ -158,7 +167,7 @@ def names(text: str | None) -> list[str]:
 def _run(settings: BenchSettings, *, report: bool) -> None:
     from planner_ft.benchmark.folder import PREDICTIONS
     from planner_ft.benchmark.runner import help_bench, run_bench
-    from planner_ft.support.ranks import join_ranks
+    from planner_ft.report.write import report_beside
 
     ranks = join_ranks()
     if not ranks.leads:
@@ -168,15 +177,13 @@ def _run(settings: BenchSettings, *, report: bool) -> None:
         results = run_bench(settings, progress, ranks)
         _show(results, settings.folder)
         if report:
-            _report(settings.folder)
+            show(report_beside(settings.folder))
 
 
 def _check_file_alone(
     kind: str, path: Path, named: dict[str, Any], allowed: tuple[str, ...] = ()
 ) -> None:
     """Raise PlannerError for flags that a suite or gate file sets itself, and under accelerate."""
-    from planner_ft.support.ranks import started_with_others
-
     if started_with_others():
         way_out = "a suite shares its runs itself with --processes N"
         raise PlannerError(f"--{kind} is started once, not by accelerate; {way_out}")
@@ -190,6 +197,7 @@ def _run_suite(o: Options) -> None:
     from planner_ft.benchmark.definitions import load_suite
     from planner_ft.benchmark.layout import print_warnings
     from planner_ft.benchmark.suite import run_suite
+    from planner_ft.report.write import report_beside
 
     suite, folder = load_suite(o.suite), o.out or Path("eval/runs") / o.suite.stem
     changes = o.take("device", "seed", "batch_size") | o.given("limit", "latency_samples")
@@ -207,7 +215,7 @@ def _run_suite(o: Options) -> None:
     files = "table.md, table.csv, table.tex, results.json"
     show(f"{folder}/: {files}; a folder for each of {', '.join(one.part.name for one in parts)}")
     if not o.no_report:
-        _report(folder)
+        show(report_beside(folder))
     failed = [
         f"{entry['candidate']} {entry['configuration']} ({part.part.name})"
         for part in parts
@@ -230,13 +238,6 @@ def _run_gate(o: Options) -> None:
     show(f"{o.gate}: passed ({', '.join(gate.thresholds)})")
 
 
-def _report(folder: Path) -> None:
-    """Write the report of a finished run or suite beside its results."""
-    from planner_ft.report.write import report_beside
-
-    show(report_beside(folder))
-
-
 def _show(results: Results, out: Path | None) -> None:
     """Print the table, the samples without a prediction and the names of the files."""
     from planner_ft.benchmark.folder import TABLES
@@ -246,3 +247,65 @@ def _show(results: Results, out: Path | None) -> None:
     print_warnings(results, terminal(stderr=True))
     if out is not None:
         show(f"\n{out}/: results.json, scores.jsonl, {', '.join(TABLES)}")
+
+
+FLAGS = ("candidates", "configurations", "vocabulary", "quantization", "limit")
+"""Options of `bench` that say what of whole plans is run."""
+PLACE = (100.0, 50.0)
+"""Metres: where demands take a place to be that is open; the next ones lie further east."""
+
+
+def run_whole(o: Options, named: dict[str, Any]) -> None:
+    """Run field cases, or the demands of --data; print the table. `named` say what is run."""
+    from planner_ft.benchmark.field.cases import DEMANDS, case_files
+    from planner_ft.benchmark.field.run import Demands, Field, run_cases
+    from planner_ft.benchmark.folder import PLANS
+    from planner_ft.planning.settings import PlanSettings
+
+    also, flag = ((), "--field") if o.field else (("level", "data"), "--level both")
+    if extra := [name for name in named if name not in (*FLAGS, *also)]:
+        raise PlannerError(f"{flag} plans whole commands; leave out {typed(extra)}")
+    vocabulary = load_vocabulary(o.vocabulary or "usv")
+    bench: Field | Demands = Field() if o.field else Demands()
+    files = case_files(o.cases or ()) if o.field else [o.data or DEMANDS]
+    how = {"vocabulary": vocabulary.source, **o.take("quantization", "device")}
+    agents = [
+        PlanSettings(candidate, configuration=one or None, **how)
+        for candidate in names(o.candidates or "embedded")
+        for one in names(o.configurations) or [""]
+    ]
+    folder = o.out or Path("eval/runs") / bench.kind
+    with working(folder, PLANS) as progress:
+        asked = files, folder, vocabulary, agents, _Plan, progress
+        table = run_cases(bench, *asked, **o.take("limit", "resume", "overwrite"))
+    show_table(table)
+    show(f"\n{folder}/: {', '.join(bench.files)}")
+
+
+class _Plan:
+    """Plans a case as `plannerft plan` does; `everywhere` takes open places to be somewhere."""
+
+    def __init__(self, planner: Planner, everywhere: bool) -> None:
+        from planner_ft.document.vehicle import load_vehicle
+
+        self.planner, self.everywhere = planner, everywhere
+        self.vehicle = load_vehicle(None, planner.vocabulary)
+
+    def __call__(self, case: Case) -> Outcome:
+        from planner_ft.benchmark.field.cases import Outcome
+        from planner_ft.document import build
+
+        origin = Origin(*case.origin) if case.origin else None
+        try:
+            planned = self.planner.plan(case.command, case.locate, origin=origin)
+            if self.everywhere and planned.open_places:
+                (east, north), places = PLACE, dict(case.locate)
+                for number, place in enumerate(planned.open_places, 1):
+                    places[place.name] = (east * number, north)
+                planned = self.planner.plan(case.command, places, origin=origin)
+        except PlannerError as error:
+            return Outcome({}, str(error))
+        document = build(planned, self.planner.vocabulary, self.vehicle)
+        parts = [] if self.everywhere else [document, *document["tasks"]]
+        problems = [part["problems"][0] for part in parts if "problems" in part]
+        return Outcome(document, problems[0] if problems else None)

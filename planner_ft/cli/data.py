@@ -7,11 +7,13 @@ from pathlib import Path
 
 import typer
 
-from planner_ft.cli.options import Options, command
-from planner_ft.cli.progress import interruptible
+from planner_ft.cli.options import Options, command, interruptible
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import write_text
 from planner_ft.support.terminal import show, terminal
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.plans import check_level
 
 
 @command
@@ -19,10 +21,9 @@ def gen_data(o: Options) -> None:
     """Make the training data."""
     from planner_ft.data.generate import GenerationSettings, generate
     from planner_ft.prompts.text import chat_messages
-    from planner_ft.vocabulary import load_vocabulary
 
     out = o.out or load_vocabulary(o.vocabulary).data
-    settings = GenerationSettings(**vars(o) | {"out": out})
+    settings = o.into(GenerationSettings, out=out)
     with alone(out, "--out", "gen-data"), interruptible(lines=False) as progress:
         results = generate(settings, progress, chat_messages)
     for result in results:
@@ -43,8 +44,6 @@ def _stage(stage: str, seconds: float, count: int) -> str:
 def validate(o: Options) -> None:
     """Check files of samples."""
     from planner_ft.data.validation import validate_file
-    from planner_ft.vocabulary import load_vocabulary
-    from planner_ft.vocabulary.plans import check_level
 
     definition, checked = load_vocabulary(o.vocabulary), check_level(o.level) if o.level else None
     status = 0
@@ -69,8 +68,6 @@ def validate(o: Options) -> None:
 @command
 def vocabulary(o: Options) -> None:
     """Show the vocabulary, or write the schemas and the documentation page that derive from it."""
-    from planner_ft.support.files import write_text
-    from planner_ft.vocabulary import load_vocabulary
     from planner_ft.vocabulary.schema import (
         documentation_page,
         stale_page,

@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import inspect
+import shlex
+import signal
+import sys
+import threading
+import time
 import tomllib
+from collections import ChainMap
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Annotated, Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, get_args
 
 import typer
 
+from planner_ft.support.alone import alone
+from planner_ft.support.terminal import Report, terminal
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from planner_ft.support.tables import Table
+
 AGAIN = "give --overwrite or another --out"
-ABOUT, ARGUMENTS = "about", "arguments"
+TEXTS = tomllib.loads(Path(__file__).with_name("help.toml").read_text(encoding="utf-8"))
+Made = TypeVar("Made")
+OPTION = inspect.Parameter.KEYWORD_ONLY
 LEAST = {"seed": 0, "processes": 1}
 """The smallest values of numbers, checked before a command begins."""
 KINDS: dict[str, Any] = {"text": str | None, "texts": list[str] | None, "int": int | None}
@@ -32,13 +49,10 @@ class Options(SimpleNamespace):
         values = self.take(*names).items()
         return {name: one for name, one in values if one is not None and one is not False}
 
-
-class Help(NamedTuple):
-    """A help text, the default that is shown instead of the value, and the panel of the option."""
-
-    text: str
-    default: str | bool = True
-    panel: str | None = None
+    def into(self, settings: Callable[..., Made], **own: Any) -> Made:
+        """Settings from the options that have the names of their fields, and from `own`."""
+        named = inspect.signature(settings).parameters.keys() & vars(self).keys() - own.keys()
+        return settings(**self.take(*named), **own)
 
 
 def command(function: Callable[[Options], None]) -> Callable[..., None]:
@@ -48,28 +62,38 @@ def command(function: Callable[[Options], None]) -> Callable[..., None]:
     def run(**values: Any) -> None:
         function(Options(**values))
 
-    help_of, described = helps(function.__name__), []
-    for item in _options(_texts()["options"].get(function.__name__, "")):
-        annotation = _described(item, help_of[item.name])
-        described.append(item.replace(annotation=annotation))
-    set_parameters(run, described)
-    run.__doc__ = _texts()[ABOUT].get(function.__name__, function.__doc__)
+    name, help_of = function.__name__, _helps(function.__name__)
+    set_parameters(run, [_option(item, *help_of) for item in TEXTS["options"][name].split()])
+    run.__doc__ = TEXTS["about"].get(name, function.__doc__)
     return run
 
 
-def _options(text: str) -> Iterator[inspect.Parameter]:
-    """The options of a command in [options] of help.toml."""
-    for item in text.split():
-        name, _, kind = item.partition(":")
-        kind, has_default, default = kind.partition("=")
-        annotation: Any = KINDS[kind.removesuffix("!")] if kind else bool
-        value: Any = None if kind else False
-        if has_default or kind.endswith("!"):
-            annotation = get_args(annotation)[0]
-            value = annotation(default) if has_default else inspect.Parameter.empty
-        yield inspect.Parameter(
-            name, inspect.Parameter.KEYWORD_ONLY, default=value, annotation=annotation
-        )
+def _helps(command: str) -> tuple[dict[str, Any], dict[str, str]]:
+    """The help of a command's options, else that of all commands, and the panels of some."""
+    own = TEXTS.get(command, {})
+    panels = {key: texts for key, texts in own.items() if isinstance(texts, dict)}
+    panel_of = {name: key for key, texts in panels.items() for name in texts}
+    return dict(ChainMap(own, *panels.values(), TEXTS["shared"])), panel_of
+
+
+def _option(item: str, help_of: dict[str, Any], panel_of: dict[str, str]) -> inspect.Parameter:
+    """An option of a command as [options] of help.toml writes it."""
+    name, _, kind = item.partition(":")
+    kind, has_default, default = kind.partition("=")
+    annotation: Any = KINDS[kind.removesuffix("!")] if kind else bool
+    value: Any = None if kind else False
+    if has_default or kind.endswith("!"):
+        annotation = get_args(annotation)[0]
+        value = annotation(default) if has_default else inspect.Parameter.empty
+    text, *shown = [help_of[name]] if isinstance(help_of[name], str) else help_of[name]
+    if panel_of.get(name) == "arguments":
+        about: Any = typer.Argument(help=text, show_default=False)
+    else:
+        # A flag has no --no- form.
+        flags = (typed([name]),) if annotation is bool else ()
+        how: dict[str, Any] = {"min": LEAST.get(name), "rich_help_panel": panel_of.get(name)}
+        about = typer.Option(*flags, help=text, show_default=shown[0] if shown else True, **how)
+    return inspect.Parameter(name, OPTION, default=value, annotation=Annotated[annotation, about])
 
 
 def set_parameters(function: Callable[..., None], parameters: list[inspect.Parameter]) -> None:
@@ -78,45 +102,149 @@ def set_parameters(function: Callable[..., None], parameters: list[inspect.Param
     function.__annotations__ = {item.name: item.annotation for item in parameters}
 
 
-def helps(name: str) -> dict[str, Help]:
-    """The help of a command's parameters by name; what it lacks is that of all commands."""
-    texts = _texts()
-    found = {key: _help(value) for key, value in texts["shared"].items()}
-    for key, value in texts.get(name, {}).items():
-        if isinstance(value, dict):
-            found |= {option: _help(text, key) for option, text in value.items()}
-        else:
-            found[key] = _help(value)
-    return found
+def show_table(table: Table) -> None:
+    """Print a table."""
+    from planner_ft.support.tables import terminal_table
 
-
-@functools.cache
-def _texts() -> dict[str, Any]:
-    return tomllib.loads(Path(__file__).with_name("help.toml").read_text(encoding="utf-8"))
-
-
-def _help(value: str | list[str], panel: str | None = None) -> Help:
-    text, *default = [value] if isinstance(value, str) else value
-    return Help(text, default[0] if default else True, panel)
-
-
-def _described(item: inspect.Parameter, help: Help) -> Any:
-    if help.panel == ARGUMENTS:
-        return Annotated[item.annotation, typer.Argument(help=help.text, show_default=False)]
-    # A flag has no --no- form.
-    names = (f"--{item.name.replace('_', '-')}",) if item.annotation is bool else ()
-    return Annotated[
-        item.annotation,
-        typer.Option(
-            *names,
-            help=help.text,
-            show_default=help.default,
-            rich_help_panel=help.panel,
-            min=LEAST.get(item.name),
-        ),
-    ]
+    terminal().print(terminal_table(table))
 
 
 def typed(names: Iterable[str]) -> str:
     """Options as they are typed: "--level, --batch-size"."""
     return ", ".join(f"--{name.replace('_', '-')}" for name in names)
+
+
+EVERY = 30.0
+"""Seconds between lines where there is no terminal."""
+
+
+@contextlib.contextmanager
+def interruptible(kept: Callable[[], str] | None = None, *, lines: bool = True) -> Iterator[Report]:
+    """Show progress (without `lines` on terminals alone); after Ctrl-C print `kept`, exit 130."""
+    with (
+        _interruptible(kept) as (console, stopped),
+        (_bars if console.is_terminal else _lines)(console) as report,
+    ):
+
+        def reporting(label: str, done: int, total: int) -> None:
+            if stopped.is_set():
+                raise KeyboardInterrupt
+            if lines or console.is_terminal:
+                report(label, done, total)
+
+        yield reporting
+
+
+@contextlib.contextmanager
+def status(kept: Callable[[], str]) -> Iterator[Callable[[object, str], None]]:
+    """As `interruptible`, with one line of text that changes, for a step."""
+    with _interruptible(kept) as (console, _stopped):
+        if console.is_terminal:
+            with console.status("starting") as line:
+                yield lambda _step, text: line.update(text)
+            return
+        due = _due()
+
+        def report(step: object, text: str) -> None:
+            if due(step):
+                console.print(text, soft_wrap=True, markup=False)
+
+        yield report
+
+
+@contextlib.contextmanager
+def working(folder: Path, log: str, *, keeps: bool = True) -> Iterator[Report]:
+    """Hold the --out of a benchmark, show progress, and say after Ctrl-C what its `log` keeps."""
+    from planner_ft.benchmark.folder import kept
+
+    again = (lambda: f"{kept(folder / log)}; go on with: {resume_command()}") if keeps else None
+    with alone(folder, "--out", "a benchmark"), interruptible(again) as report:
+        yield report
+
+
+def resume_command() -> str:
+    """The command line of this process with --resume instead of --overwrite."""
+    words = [word for word in sys.argv[1:] if word not in ("--overwrite", "--resume")]
+    return shlex.join(["plannerft", *words, "--resume"])
+
+
+@contextlib.contextmanager
+def _interruptible(kept: Callable[[], str] | None) -> Iterator[tuple[Console, threading.Event]]:
+    """A console, and an event that Ctrl-C sets: libraries swallow KeyboardInterrupt."""
+    console, pressed = terminal(stderr=True), threading.Event()
+
+    def press(_number: int, _frame: object) -> None:
+        pressed.set()
+        raise KeyboardInterrupt
+
+    before = signal.getsignal(signal.SIGINT)
+    is_ours = threading.current_thread() is threading.main_thread() and before != signal.SIG_IGN
+    if is_ours:
+        signal.signal(signal.SIGINT, press)
+    try:
+        yield console, pressed
+    except KeyboardInterrupt:
+        text = f"interrupted{f'; {kept()}' if kept else ''}"
+        console.print(text, soft_wrap=True, markup=False)
+        raise typer.Exit(130) from None
+    finally:
+        if is_ours:
+            signal.signal(signal.SIGINT, before)
+
+
+@contextlib.contextmanager
+def _bars(console: Console) -> Iterator[Report]:
+    from rich import progress
+
+    columns = (
+        progress.SpinnerColumn(),
+        progress.TextColumn("{task.description}", markup=False),
+        progress.BarColumn(bar_width=20),
+        progress.MofNCompleteColumn(),
+        progress.TimeElapsedColumn(),
+        progress.TextColumn("left"),
+        progress.TimeRemainingColumn(),
+    )
+    bars: dict[str, progress.TaskID] = {}
+    with progress.Progress(*columns, console=console, transient=True) as shown:
+
+        def report(label: str, done: int, total: int) -> None:
+            if label not in bars:
+                for task in bars.values():
+                    shown.stop_task(task)
+                bars[label] = shown.add_task(label, total=total or None)
+            shown.update(bars[label], completed=done, total=total or None)
+
+        yield report
+
+
+@contextlib.contextmanager
+def _lines(console: Console) -> Iterator[Report]:
+    begun: dict[str, tuple[float, int]] = {}
+    due = _due()
+
+    def report(label: str, done: int, total: int) -> None:
+        started, before = begun.setdefault(label, (time.monotonic(), done))
+        if not due(label, always=done == total):
+            return
+        seconds = time.monotonic() - started
+        left = seconds / (done - before) * (total - done) if done > before else 0
+        count = f" {done}/{total}" if total else ""
+        rest = f", {left:.0f} s left" if left else ""
+        console.print(f"{label}{count}{rest}", soft_wrap=True, markup=False)
+
+    yield report
+
+
+def _due() -> Callable[..., bool]:
+    """Says whether a line is due: the first of a step, and one in EVERY seconds."""
+    shown: dict[object, float] = {}
+
+    def due(step: object, *, always: bool = False) -> bool:
+        now = time.monotonic()
+        if step in shown and not always and now - max(shown.values()) < EVERY:
+            return False
+        shown[step] = now
+        return True
+
+    return due

@@ -1,16 +1,104 @@
-"""`plannerft review` and `plannerft verify`."""
+"""`plannerft plan`."""
 
 from __future__ import annotations
 
+import contextlib
 import sys
+import threading
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
-from planner_ft.cli.options import Options, command, typed
+from planner_ft.cli.options import Options, command, interruptible, typed
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.terminal import show, terminal
+from planner_ft.support.files import indented_json
+from planner_ft.support.geodesy import parse_origin
+from planner_ft.support.terminal import Report, show, terminal
+from planner_ft.vocabulary import load_vocabulary
+
+if TYPE_CHECKING:
+    from planner_ft.document import PlanDocument
+
+PATIENCE = 3.0
+"""Seconds without an answer before progress is shown: a short wait needs none."""
+
+
+@command
+def plan(o: Options) -> None:
+    """Plan a command with both agents."""
+    from planner_ft.document import write_document
+    from planner_ft.document.tree import plan_tree
+    from planner_ft.planning.planner import new_file
+
+    if o.out is not None:
+        new_file(o.out, overwrite=o.overwrite)
+    document = _plan(o)
+    show(indented_json(document) if o.json else plan_tree(document), end="" if o.json else "\n")
+    if o.out is not None:
+        write_document(o.out, document)
+        show(f"{o.out}: next, plannerft review {o.out}", error=True)
+    if not document["valid"]:
+        raise typer.Exit(1)
+
+
+def _plan(o: Options) -> PlanDocument:
+    """Check the options, then plan."""
+    from dataclasses import replace
+
+    from planner_ft.document import build
+    from planner_ft.document.ontology import check
+    from planner_ft.document.vehicle import check_area, load_vehicle
+    from planner_ft.document.warnings.asked import other_language
+    from planner_ft.planning.locations import parse_locations, read_area, read_places
+    from planner_ft.planning.planner import Planner, check_command, read_command
+    from planner_ft.planning.settings import PlanSettings
+
+    origin = parse_origin(o.origin) if o.origin is not None else None
+    locations = parse_locations(o.locate or [])
+    chart = read_places(o.locate_file, origin) if o.locate_file else {}
+    corners = check_area(read_area(o.area, origin)) if o.area else None
+    text = check_command(read_command(sys.stdin.buffer) if o.command == "-" else o.command)
+    with (
+        interruptible() as report,
+        patient(report) as progress,
+        Planner(o.into(PlanSettings), progress) as planner,
+    ):
+        profile = load_vehicle(o.vehicle, planner.vocabulary)
+        profile = replace(profile, area=corners) if corners else profile
+        if doubt := other_language(text):
+            show(doubt, error=True)
+        for question in check(text, planner.vocabulary)["questions"]:
+            show(f"the command does not say: {question}", error=True)
+        planned = planner.plan(text, locations, origin=origin, chart=chart)
+        return build(planned, planner.vocabulary, profile)
+
+
+@contextlib.contextmanager
+def patient(report: Report) -> Iterator[Report]:
+    """Progress that is shown once PATIENCE is over."""
+    last: list[tuple[str, int, int]] = []
+
+    def speak() -> None:
+        for state in last:
+            report(*state)
+
+    timer = threading.Timer(PATIENCE, speak)
+    timer.daemon = True
+
+    def reporting(label: str, done: int, total: int) -> None:
+        last[:] = [(label, done, total)]
+        if timer.finished.is_set():
+            report(label, done, total)
+
+    timer.start()
+    try:
+        yield reporting
+    finally:
+        timer.cancel()
+
 
 DECISIONS = ("show", "adopt", "edit", "approve", "acknowledge", "reject")
 SERVING = ("port", "host", "no_browser")
@@ -21,8 +109,12 @@ HARVESTING = ("out", "overwrite")
 def review(o: Options) -> None:
     """Read, edit, approve or reject a plan."""
     if o.harvest:
+        from planner_ft.review.harvest import harvest_files
+
         _refuse("--harvest", o, "web", "origin", *DECISIONS, *SERVING)
-        _harvest(o)
+        how = o.take("overwrite", "vocabulary")
+        for line in harvest_files(o.plans or [], o.log, o.out, **how).lines():
+            show(line)
     elif o.web:
         _refuse("--web", o, *DECISIONS, *HARVESTING)
         _serve(o)
@@ -76,7 +168,6 @@ def _serve(o: Options) -> None:
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
     from planner_ft.simulation.live import run_live
-    from planner_ft.support.geodesy import parse_origin
 
     way_out = "one is opened, and the page offers the others of its folder"
     plan = next(iter(_plans(o, way_out, 0, 1)), None)
@@ -86,14 +177,6 @@ def _serve(o: Options) -> None:
     given |= {"reviewer": o.name or "", "exporting": exporting, "runner": run_live}
     planning = planning_of(plan, o.vocabulary, o.candidate, o.device)
     serve(plan, WebSettings(planning=planning, open_browser=not o.no_browser, **given))
-
-
-def _harvest(o: Options) -> None:
-    from planner_ft.review.harvest import harvest_files
-
-    how = o.take("overwrite", "vocabulary")
-    for line in harvest_files(o.plans or [], o.log, o.out, **how).lines():
-        show(line)
 
 
 @command
@@ -113,8 +196,6 @@ def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | Non
     from planner_ft.review.approval import approval_of
     from planner_ft.review.log import existing_log, log_beside
     from planner_ft.review.terminal import approval_text
-    from planner_ft.support.files import indented_json
-    from planner_ft.vocabulary import load_vocabulary
 
     document = read_document(plan, load_vocabulary(vocabulary) if vocabulary else None)
     approval = approval_of(document, existing_log(log) if log else log_beside(plan))
@@ -127,7 +208,6 @@ def _verify_plan(plan: Path, log: Path | None, json: bool, vocabulary: str | Non
 
 def _verify_log(log: Path, json: bool) -> None:
     from planner_ft.review.log import check_log, existing_log, way_out
-    from planner_ft.support.files import indented_json
 
     chain = check_log(existing_log(log))
     torn = len(chain.torn)

@@ -5,16 +5,10 @@ from __future__ import annotations
 import inspect
 from pathlib import Path
 
-from planner_ft.cli.options import Options, command
-from planner_ft.cli.progress import interruptible, resume_command
+from planner_ft.cli.options import Options, command, interruptible, resume_command, show_table
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.terminal import show, terminal
-
-AS_GIVEN = (
-    *("plan", "out", "runs", "seed", "simulator", "tolerance", "mcap", "log", "draft"),
-    *("vocabulary", "overwrite", "goto", "survey"),
-)
-"""Options that are settings of a simulation as they are."""
+from planner_ft.support.geodesy import parse_origin
+from planner_ft.support.terminal import show
 
 
 @command
@@ -30,20 +24,18 @@ def simulate(o: Options) -> None:
     from planner_ft.simulation.output import outcome_lines, table
     from planner_ft.simulation.run import SimulationSettings
     from planner_ft.simulation.run import simulate as run
-    from planner_ft.support.geodesy import parse_origin
-    from planner_ft.support.tables import terminal_table
 
-    settings = SimulationSettings(
+    settings = o.into(
+        SimulationSettings,
         locations=parse_locations(o.locate or []),
         starts=tuple(_place(text) for text in o.start or ()),
         faults=read_faults(o.fault or []),
         origin=parse_origin(o.origin) if o.origin is not None else None,
         outlines=read_outlines(o.outline or []),
-        **o.take(*AS_GIVEN),
     )
     with interruptible(lambda: f"{settings.folder} holds the logs so far") as report:
         done = run(settings, report)
-    terminal().print(terminal_table(table(done, narrow=True)))
+    show_table(table(done, narrow=True))
     for line in outcome_lines(done.results):
         show(line)
     if any("nothing found" in one.reason for one in done.results):
@@ -54,7 +46,6 @@ def simulate(o: Options) -> None:
 def _suite(o: Options) -> None:
     """Run a suite, which says everything itself but where to."""
     from planner_ft.simulation.suite import SHORT, read_suite, run_suite, suite_table
-    from planner_ft.support.tables import terminal_table
 
     own = ("plan", "suite", "out", "overwrite")
     for name, item in inspect.signature(simulate).parameters.items():
@@ -66,7 +57,7 @@ def _suite(o: Options) -> None:
     again = f"{out} holds what is done; the same command goes on"
     with interruptible(lambda: again) as report:
         ran = run_suite(suite, out, report, overwrite=o.overwrite)
-    terminal().print(terminal_table(suite_table(suite, ran, SHORT)))
+    show_table(suite_table(suite, ran, SHORT))
     show(f"{out}: table.md, table.csv, and a folder per mission with plan, log and runs")
 
 
@@ -81,9 +72,7 @@ def _place(text: str) -> tuple[float, float]:
     return x, y
 
 
-TRAINING = ("recipe", "seed", "sampling", "without", "goto", "resume", "overwrite")
 USUAL = {"recipe": "ours", "sampling": "uniform"}
-BENCH = ("goto", "episodes", "seed", "out", "overwrite")
 
 
 @command
@@ -111,7 +100,7 @@ def _train(o: Options) -> None:
         show(f"{root}: a folder for each skill, with policy.safetensors, card, manifest and log")
         return
     folder, changes = o.out or Path("skills") / o.name, o.given("iterations", "environments")
-    request = SkillTraining(o.name, folder, changes=changes, **o.take(*TRAINING))
+    request = o.into(SkillTraining, skill=o.name, out=folder, changes=changes)
     with interruptible(lambda: f"continue with: {resume_command()}") as report:
         train_skill(request, report)
     show(f"{folder}: policy.safetensors with card, manifest and log.jsonl")
@@ -120,12 +109,11 @@ def _train(o: Options) -> None:
 
 def _bench(o: Options) -> None:
     from planner_ft.skills.bench import SkillBench, bench_skill
-    from planner_ft.support.tables import terminal_table
 
-    request = SkillBench(o.name, tuple(o.policy or ()), **o.take(*BENCH))
+    request = o.into(SkillBench, skill=o.name, policies=tuple(o.policy or ()))
     with interruptible() as report:
         tables = bench_skill(request, report)
     for table in tables:
-        terminal().print(terminal_table(table))
+        show_table(table)
     if o.out:
         show(f"{o.out}: table.md, table.csv, episodes.json and manifest.json")

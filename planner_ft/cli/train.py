@@ -9,51 +9,42 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from planner_ft.cli.options import Options, command, set_parameters
-from planner_ft.cli.progress import interruptible, resume_command, status
+from planner_ft.cli.options import (
+    OPTION,
+    Options,
+    command,
+    interruptible,
+    resume_command,
+    set_parameters,
+    status,
+)
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.ranks import Ranks, join_ranks
+from planner_ft.support.resources import clock, memory_size
 from planner_ft.support.terminal import show, terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
 from planner_ft.vocabulary.definition import DEFAULT
+from planner_ft.vocabulary.plans import check_level
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 
-def with_settings(*without: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def add_settings(function: Callable[..., None], *without: str) -> None:
     """An option for every training setting `without` some: flags and settings cannot differ."""
-
-    def decorate(function: Callable[..., None]) -> Callable[..., None]:
-        own, kind = inspect.signature(function).parameters.values(), inspect.Parameter.KEYWORD_ONLY
-        settings = (
-            inspect.Parameter(name, kind, default=None, annotation=_option(name))
-            for name in FIELDS
-            if name not in without
-        )
-        set_parameters(function, [*own, *settings])
-        return function
-
-    return decorate
+    own = inspect.signature(function).parameters.values()
+    set_parameters(function, [*own, *(_option(name) for name in FIELDS if name not in without)])
 
 
-def _option(name: str) -> Any:
-    (kind, choices), default = kind_of(name), default_text(name)
-    flag = name.replace("_", "-")
-    flags = f"--{flag}/--no-{flag}" if kind is bool else f"--{flag}"
-    return Annotated[
-        kind | None,
-        typer.Option(
-            flags,
-            help=ABOUT[name]["help"] + (f" Default: {default}." if default else ""),
-            metavar="|".join(choices) or None,
-            rich_help_panel=ABOUT[name]["panel"],
-        ),
-    ]
+def _option(name: str) -> inspect.Parameter:
+    (kind, choices), default, about = kind_of(name), default_text(name), ABOUT[name]
+    text = about["help"] + (f" Default: {default}." if default else "")
+    values = "|".join(choices) or None
+    shown = typer.Option(help=text, metavar=values, rich_help_panel=about["panel"])
+    return inspect.Parameter(name, OPTION, default=None, annotation=Annotated[kind | None, shown])
 
 
-@with_settings()
 @command
 def train(o: Options) -> None:
     """Fine-tune a LoRA adapter on a 4-bit base."""
@@ -69,6 +60,9 @@ def train(o: Options) -> None:
         _preview(request, o.preview_id, console)
 
 
+add_settings(train)
+
+
 def _train(request: Any, console: Console, ranks: Ranks) -> None:
     from planner_ft.benchmark.judge import Judge
     from planner_ft.training.loop import InterruptedRunError
@@ -77,18 +71,16 @@ def _train(request: Any, console: Console, ranks: Ranks) -> None:
     try:
         manifest = run_training(request, console, Judge, ranks)
     except InterruptedRunError as stop:
-        if not ranks.leads:
-            raise typer.Exit(128 + stop.signal_number) from None
-        done = f"stopped at step {stop.step} of {stop.total}, all saved"
-        console.print(f"{done}; continue with:\n  {resume_command()}", markup=False)
+        if ranks.leads:
+            done = f"stopped at step {stop.step} of {stop.total}, all saved"
+            console.print(f"{done}; continue with:\n  {resume_command()}")
         raise typer.Exit(128 + stop.signal_number) from None
     if manifest:
         for line in _result(request, manifest["result"]):
-            console.print(line, markup=False)
+            console.print(line)
 
 
 def _result(request: Any, result: dict[str, Any]) -> list[str]:
-    from planner_ft.support.resources import clock, memory_size
 
     loss, tokens, seconds = result["validation_loss"], result["tokens"], result["seconds"]
     best = ""
@@ -126,13 +118,12 @@ def _preview(request: Any, sample_id: str | None, console: Console) -> None:
     sample, tokenizer = preview_sample(request, sample_id)
     console.print(preview_text(sample, tokenizer))
     trained = f"{sample.completion_length} of them trained (between ⟦ and ⟧)"
-    console.print(f"{sample.id}: {sample.length} tokens, {trained}", markup=False)
+    console.print(f"{sample.id}: {sample.length} tokens, {trained}")
 
 
 NAMED = ("level", "candidate", "vocabulary", "data_dir")
 
 
-@with_settings("seed", "max_samples", "keep_checkpoints")
 @command
 def learning_curve(o: Options) -> None:
     """Train on growing parts of the training set and benchmark each."""
@@ -155,6 +146,9 @@ def learning_curve(o: Options) -> None:
     show(f"{o.out}/: table.md, table.csv, learning_curve.json, {figures}")
 
 
+add_settings(learning_curve, "seed", "max_samples", "keep_checkpoints")
+
+
 def _sizes(text: str | None) -> tuple[int, ...] | None:
     try:
         return None if text is None else tuple(int(part) for part in text.split(","))
@@ -169,7 +163,6 @@ SHOWN = {"plan": "plans", "entry": "tasks or skills", "value": "values"}
 def calibrate(o: Options) -> None:
     """Calibrate a candidate's confidence."""
     from planner_ft.benchmark.calibrate import calibrate as run
-    from planner_ft.vocabulary.plans import check_level
 
     level = check_level(o.level)
     named = {f"{level}_configuration": o.configuration, f"{level}_adapter": o.adapter}

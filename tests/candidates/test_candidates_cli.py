@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from planner_ft.candidates import diagnosis
 from planner_ft.candidates.costs import ANSWER_TOKENS
 from planner_ft.candidates.diagnosis import probe_four_bit
-from planner_ft.cli.candidates import candidates, doctor
+from planner_ft.cli.models import candidates, doctor
 
 ROOT = Path(__file__).parents[2]
 PUBLISHED = ROOT / "planner_ft" / "benchmark" / "published"
