@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import torch
 
-if TYPE_CHECKING:
-    import torch
-
-    from planner_ft.training.samples import Sample
+from planner_ft.training.samples import Sample
 
 VALIDATION_TOKENS = 2048
 """Tokens, padding included, that go through the model together in a validation pass."""
@@ -100,8 +98,6 @@ def collate(
     sample has a row of its own, or, with `packed`, short ones share a row as wide as the longest.
     Samples that begin alike share rows of up to `together` positions, their beginning stands once.
     """
-    import torch
-
     shared = _shared(samples) if together else 0
     lengths = [sample.length - 1 - shared for sample in samples]
     room = max(lengths)

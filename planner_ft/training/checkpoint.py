@@ -12,10 +12,9 @@ import hashlib
 import json
 import os
 import shutil
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import torch
 from safetensors.torch import load as load_tensors
@@ -37,14 +36,6 @@ JUDGED = ("f1", "strict_valid", "exact_sequence")
 """Metrics of answers to validation samples."""
 Answer = dict[str, Any]
 """Id and family of a validation sample, and the JUDGED metrics of its answer."""
-
-
-class Judging(Protocol):
-    """What answers validation samples while a model is in training."""
-
-    def answers(self, *, adapter: bool) -> list[Answer]: ...
-
-    def change(self, base: Sequence[Answer], best: Sequence[Answer]) -> str: ...
 
 
 @dataclass
@@ -74,7 +65,9 @@ class TrainState:
 
 @dataclass
 class Run:
-    """A model in training; `pad` fills batches, layers compute in `dtype`, `best`: None if last."""
+    """A model in training; `pad` fills batches, layers compute in `dtype`, `best`: None if last,
+    `judge` answers validation samples (planner_ft.benchmark.judge).
+    """
 
     settings: TrainSettings
     model: Any
@@ -87,7 +80,7 @@ class Run:
     state: TrainState = field(default_factory=TrainState)
     best: dict[str, Tensor] | None = None
     report: Report = field(init=False)
-    judge: Judging | None = None
+    judge: Any = None
     ranks: Ranks = ALONE
 
     def __post_init__(self) -> None:
@@ -107,7 +100,6 @@ class Run:
 
 def save_checkpoint(run: Run) -> None:
     """Write a checkpoint, then remove all but the last KEPT; of several processes the first does.
-
     Raises PlannerError: disk full.
     """
     if not run.ranks.leads:

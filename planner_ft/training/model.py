@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import torch
 from torch import Tensor, nn
@@ -15,10 +15,8 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.batches import Batch, collate, validation_batches
 from planner_ft.training.lean import lean_states
+from planner_ft.training.samples import Sample
 from planner_ft.training.settings import TrainSettings
-
-if TYPE_CHECKING:
-    from planner_ft.training.samples import Sample
 
 LOGIT_VALUES = 2**24
 """Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
@@ -112,8 +110,7 @@ def autocast(device: torch.device, dtype: torch.dtype) -> torch.autocast:
 
 def loss_sum(model: Any, batch: Batch, dtype: torch.dtype) -> Tensor:
     """Cross-entropy summed over the batch's completion tokens, a float32 scalar. Layers compute in
-    `dtype`. Logits exist for completion positions alone; many are computed in chunks, which the
-    backward pass computes again.
+    `dtype`. Logits exist for completion positions alone; the backward pass computes chunks again.
     """
     base = model.get_base_model()
     head = base.get_output_embeddings()

@@ -13,9 +13,10 @@ from planner_ft.candidates.adapters import CONFIG, MANIFEST, SEEN, WEIGHTS, adap
 from planner_ft.candidates.registry import model_metadata
 from planner_ft.prompts.render import prompt_frame, save_tokenizer
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_json, read_text, sha256_file, write_json, write_text
+from planner_ft.support.files import read_json, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.resources import peak_memory
+from planner_ft.support.templates import environment
 from planner_ft.training.checkpoint import CHECKPOINTS, PREFIX, Run
 from planner_ft.training.loop import means
 from planner_ft.training.model import adapter_parameters
@@ -170,7 +171,7 @@ def run_manifest(
     return build_manifest(
         "train",
         seed=settings.seed,
-        configuration={**settings.as_dict(), "origin": request.resolved.origin},
+        configuration={**settings.as_dict(), "origin": request.origin},
         inputs=inputs,
         outputs={path.name: sha256_file(path) for path in files if path.is_file()},
         **adapter_record(candidate, request.level, request.vocabulary),
@@ -190,6 +191,10 @@ def run_manifest(
 def _result(run: Run, adapter: Path) -> Values:
     """Length, speed, losses and memory of a finished run."""
     state, gpu = run.state, run.device.type == "cuda"
+    judged, base, best = {}, state.base_answers, state.best_answers
+    if run.judge and base and best:  # what training changed
+        answers = {"n": len(best), "base": means(base), "adapter": means(best)}
+        judged = {"validation_answers": answers, "change": run.judge.change(base, best)}
     return {
         "steps": state.step,
         "epochs": run.epoch,
@@ -201,7 +206,7 @@ def _result(run: Run, adapter: Path) -> Values:
         "validation_loss": state.best_loss,
         "best_epoch": state.best_epoch,
         "history": state.history,
-        **_judged(run),
+        **judged,
         "peak_memory_bytes": peak_memory(run.device),
         "device": torch.cuda.get_device_name(run.device) if gpu else str(run.device),
         "compute_dtype": str(run.dtype).removeprefix("torch."),
@@ -210,23 +215,13 @@ def _result(run: Run, adapter: Path) -> Values:
     }
 
 
-def _judged(run: Run) -> Values:
-    """Answers of base and best adapter to validation samples, and what training changed."""
-    base, best = run.state.base_answers, run.state.best_answers
-    if not run.judge or not base or not best:
-        return {}
-    answers = {"n": len(best), "base": means(base), "adapter": means(best)}
-    return {"validation_answers": answers, "change": run.judge.change(base, best)}
-
-
 def model_card(manifest: Values) -> str:
     """README.md of the adapter that a training manifest describes, in the Hub's format."""
-    import jinja2
+    from jinja2 import StrictUndefined
 
-    blocks: Values = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, **blocks)
-    environment.filters |= {"json": json.dumps, "name": lambda path: Path(path).name}
+    own = {"undefined": StrictUndefined, "keep_trailing_newline": True}
+    templates = environment("planner_ft.training", **own)
+    templates.filters |= {"json": json.dumps, "name": lambda path: Path(path).name}
     values = {"s": manifest["configuration"], "r": manifest["result"]}
-    values["metadata"] = model_metadata(manifest, "peft")
-    card = read_text(Path(__file__).parent / "card.md.jinja")
-    return environment.from_string(card).render(m=manifest, **values)
+    metadata = model_metadata(manifest, "peft")
+    return templates.get_template("card.md.j2").render(m=manifest, metadata=metadata, **values)

@@ -73,9 +73,9 @@ class Finding:
 
 def run_preflight(request: TrainRequest, prepared: Prepared) -> Iterator[Finding]:
     """Yield the outcome of each check and fill `prepared`. Problems of the run raise nothing."""
-    titles = ("candidate", "data", "rendering", "special tokens", "output", "memory")
-    checks = (check_candidate, check_data, check_rendering, check_tokens, check_output)
-    for title, check in zip(titles, (*checks, check_memory), strict=True):
+    checks = {"candidate": check_candidate, "data": check_data, "rendering": check_rendering}
+    checks |= {"special tokens": check_tokens, "output": check_output, "memory": check_memory}
+    for title, check in checks.items():
         finding = Finding(title)
         try:
             check(request, prepared, finding)

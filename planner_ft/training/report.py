@@ -5,14 +5,13 @@ from __future__ import annotations
 import contextlib
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from rich.console import Console
 
 from planner_ft.support.files import atomic_writer, compact_json, write_jsonl, writing
 from planner_ft.support.resources import clock, memory_size
 from planner_ft.training.settings import TrainSettings
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 LOG, TRACKED = "train_log.jsonl", "logs"
 GO_ON = "free some space and run the same command with --resume"
@@ -63,7 +62,7 @@ class Report:
             self.steps = []
 
     def note(self, text: str) -> None:
-        self.console.print(text, markup=False, highlight=False, soft_wrap=True)
+        self.console.print(text)
 
     def close(self) -> None:
         self.status.stop()

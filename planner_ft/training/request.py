@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -13,7 +13,7 @@ from planner_ft.prompts.render import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_toml
 from planner_ft.support.ranks import ALONE, Ranks
-from planner_ft.training.settings import Resolved, Source, TrainSettings, resolve_settings
+from planner_ft.training.settings import Origin, Source, TrainSettings, departures, resolve_settings
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
 
@@ -40,15 +40,12 @@ class TrainRequest:
     train_file: Path
     validation_file: Path | None
     output: Path
-    resolved: Resolved
+    settings: TrainSettings
+    origin: Origin
     overwrite: bool = False
     resume: bool = False
     corrections: Path | None = None
     processes: int = 1
-
-    @property
-    def settings(self) -> TrainSettings:
-        return self.resolved.settings
 
     def fingerprint(
         self, training: str, validation: str | None, base_weights: str
@@ -68,7 +65,8 @@ class TrainRequest:
 
     def departures(self) -> list[str]:
         """Sentences on published settings that this run does not use."""
-        found, each = self.resolved.departures(self.level), self.settings.batch_size
+        found = departures(self.level, self.settings, self.origin)
+        each = self.settings.batch_size
         if self.processes > 1:
             shared = f"{each} for each of {self.processes} processes"
             found.append(f"batch size {each * self.processes} ({shared})")
@@ -132,11 +130,11 @@ def build_request(
     if candidate and level and vocabulary:
         candidate = candidate.serving(vocabulary)
         sources.append(Source(candidate.name, candidate.adapter_defaults(level)))
-    resolved = resolve_settings(level or "mission", sources, problems)
-    if resolved.settings.select == "f1" and not resolved.settings.validation_answers:
+    settings, origin = resolve_settings(level or "mission", sources, problems)
+    if settings.select == "f1" and not settings.validation_answers:
         problems.append("--select f1 needs --validation-answers of at least 1")
-    problems += launch_problems(ranks, resolved.settings)
-    resolved = resolved.on(ranks.device(resolved.settings.device))
+    problems += launch_problems(ranks, settings)
+    settings = replace(settings, device=ranks.device(settings.device))
     if problems or not (level and candidate and vocabulary):
         raise refusal("the configuration has", problems)
     output = Path(named.get("output") or Path("adapters") / candidate.slug / level)
@@ -147,7 +145,7 @@ def build_request(
     corrections = _path(named.get("corrections"))
     paths, again = (*files, output), (overwrite, resume)
     return TrainRequest(
-        level, candidate, vocabulary, *paths, resolved, *again, corrections, ranks.world
+        level, candidate, vocabulary, *paths, settings, origin, *again, corrections, ranks.world
     )
 
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import torch
+from rich.console import Console
+from torch import Tensor
 
 from planner_ft.candidates.loading import compute_dtype, load_model, load_tokenizer
 from planner_ft.candidates.location import weights_sha256
@@ -15,27 +18,33 @@ from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.support.terminal import show, terminal
-from planner_ft.training.checkpoint import Judging, Run, load_newest_checkpoint
+from planner_ft.training.batches import Batch, collate
+from planner_ft.training.checkpoint import Run, load_newest_checkpoint
 from planner_ft.training.loop import InterruptedRunError, train_loop
 from planner_ft.training.model import (
     SMALL_MODEL,
     adapter_parameters,
+    adapter_tensors,
     attach_adapter,
+    autocast,
     cpu_threads,
+    evaluating,
+    loss_sum,
     memory_levers,
+    set_adapter,
     unpack,
 )
 from planner_ft.training.output import begin, folder_state, is_unfinished, write_result, write_run
 from planner_ft.training.preflight import CHECKS, Finding, Prepared, longest, run_preflight
-from planner_ft.training.probe import probe_model
 from planner_ft.training.report import Report, Silence
 from planner_ft.training.request import TrainRequest, refusal
 from planner_ft.training.samples import Sample, read_split
 
-if TYPE_CHECKING:
-    from rich.console import Console
-
-    NewJudge = Callable[[TrainRequest, Prepared, Run], Judging]
+NewJudge = Callable[[TrainRequest, Prepared, Run], Any]
+"""Makes what answers validation samples (planner_ft.benchmark.judge)."""
+LOSS_TOLERANCE = 0.02
+"""Relative difference between our loss and the model's own that rounding in 16 bits explains."""
+B_DEVIATION = 0.02
 
 
 def preview_sample(request: TrainRequest, sample_id: str | None) -> tuple[Sample, Any]:
@@ -66,7 +75,7 @@ def train(
     if not ranks.leads:
         console, new_judge = terminal(quiet=True), None
     for text in request.departures():
-        _say(console, f"note: {text}")
+        console.print(f"note: {text}")
     with alone(request.output if ranks.leads else None, "--output", "a training"):
         prepared = Prepared()
         with ranks.one_voice():
@@ -76,10 +85,10 @@ def train(
         base = weights_sha256(request.candidate.folder)
         fingerprint = request.fingerprint(prepared.train.sha256, validation, base)
         if request.resume and folder_state(request.output) == "empty":
-            _say(console, f"--resume: {request.output} holds no run: starting from the beginning")
+            console.print(f"--resume: {request.output} holds no run: starting from the beginning")
             request = replace(request, resume=False)
         if request.resume and not is_unfinished(request.output, fingerprint):
-            _say(console, f"{request.output}: this run is complete; nothing to resume")
+            console.print(f"{request.output}: this run is complete; nothing to resume")
             return None
         ranks.wait()  # everybody has seen the folder as it was
         with _limits(request, prepared):
@@ -121,7 +130,7 @@ def _train(
     if new_judge and validation and settings.validation_answers:
         run.judge = new_judge(request, prepared, run)
     if request.resume:
-        _say(console, load_newest_checkpoint(run))
+        console.print(load_newest_checkpoint(run))
     run.report = Silence()
     if not ranks.leads:
         train_loop(run)
@@ -192,12 +201,92 @@ def _show(console: Console, number: int, finding: Finding) -> None:
     text = "; ".join(part for part in (count, finding.text) if part)
     mark = "✗" if found else "-" if finding.skipped else "✓"
     line = f"[{number}/{CHECKS}] {mark} {finding.title}: {text}"
-    _say(console, line, "red" if found else None)
+    console.print(line, style="red" if found else None)
     for note in finding.notes:
-        _say(console, f"      note: {note}", "yellow")
+        console.print(f"      note: {note}", style="yellow")
     for text in [] if console.quiet else finding.warnings:
         show(f"warning: {text}", error=True)
 
 
-def _say(console: Console, text: str, style: str | None = None) -> None:
-    console.print(text, markup=False, highlight=False, soft_wrap=True, style=style)
+def probe_model(
+    model: Any, samples: Sequence[Sample], pad: int, batch_size: int, device: Any, dtype: Any
+) -> list[str]:
+    """Everything wrong with the model for training: weights that do not learn, a loss that is not
+    the model's own. Weights, gradients and random state are left as they were. The gradient step
+    runs on the `batch_size` longest samples: it also shows whether training fits the memory.
+
+    A new LoRA adapter has B = 0, so that the gradient of A is zero whatever is wrong, and A is
+    checked in a second step with small random numbers in B. B is checked in the first: then
+    gradients reach it through the frozen weights alone, and a layer that passes none on (as 4-bit
+    layers that a CPU has packed) is not hidden by the path through other adapters. A validation
+    pass goes first, since one is what packs them.
+    """
+    by_length = sorted(samples, key=lambda sample: sample.length)
+    batch = collate(by_length[-batch_size:], pad).to(device)
+    saved = adapter_tensors(model)
+    model.train()
+    try:
+        with torch.random.fork_rng():
+            problems = _loss_problems(model, by_length[0], pad, device, dtype)
+            base = [name for name in saved if "lora_" not in name]
+            if base:
+                count = f"{len(base)} weights of the base model"
+                problems.append(f"{count} would be trained (first: {base[0]})")
+            gradients = _gradients(model, batch, dtype)
+            generator = torch.Generator().manual_seed(0)
+            with torch.no_grad():
+                for name, value in adapter_parameters(model).items():
+                    if "lora_B" in name:
+                        value.copy_(torch.randn(value.shape, generator=generator) * B_DEVIATION)
+            second = _gradients(model, batch, dtype)
+            gradients |= {name: value for name, value in second.items() if "lora_A" in name}
+            return problems + _gradient_problems(gradients)
+    finally:
+        set_adapter(model, saved)
+        model.zero_grad(set_to_none=True)
+
+
+def _loss_problems(
+    model: Any, sample: Sample, pad: int, device: torch.device, dtype: torch.dtype
+) -> list[str]:
+    """Compare with the model's own loss: an architecture may change logits behind the output."""
+    batch = collate([sample], pad).to(device)
+    ids = torch.tensor([sample.rendered.input_ids], device=device)
+    mask = torch.tensor([sample.rendered.completion_mask], device=device)
+    with evaluating(model), autocast(device, dtype):
+        ours = float(loss_sum(model, batch, dtype)) / len(batch.targets)
+        labels = ids.masked_fill(mask == 0, -100)
+        theirs = float(model(input_ids=ids, labels=labels, use_cache=False).loss)
+    if not math.isfinite(ours):
+        broken = "the base model's weights are broken, or its dtype overflows"
+        return [f"the loss of sample {sample.id} is {ours} before any training: {broken}"]
+    if abs(ours - theirs) > LOSS_TOLERANCE * max(1.0, abs(theirs)):
+        other = f"{ours:.4f} where the model itself computes {theirs:.4f}"
+        return [f"the loss of sample {sample.id} is {other}: this architecture is not supported"]
+    return []
+
+
+def _gradients(model: Any, batch: Batch, dtype: torch.dtype) -> dict[str, Tensor | None]:
+    """The gradient of every adapter weight."""
+    model.zero_grad(set_to_none=True)
+    torch.autograd.backward(loss_sum(model, batch, dtype) / len(batch.targets))
+    return {name: value.grad for name, value in adapter_parameters(model).items()}
+
+
+def _gradient_problems(gradients: dict[str, Tensor | None]) -> list[str]:
+    """Sentences on matrices without a gradient, and on those with one that is not finite."""
+    without = [name for name, value in gradients.items() if value is None or not value.any()]
+    infinite = [
+        name
+        for name, value in gradients.items()
+        if value is not None and not value.isfinite().all()
+    ]
+    texts = {
+        "get no gradient (first: {}); they would stay as they are": without,
+        "get a gradient that is not finite (first: {})": infinite,
+    }
+    return [
+        f"{len(names)} of {len(gradients)} adapter matrices {text.format(names[0])}"
+        for text, names in texts.items()
+        if names
+    ]

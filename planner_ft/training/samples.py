@@ -110,9 +110,8 @@ class Split:
         return self._extended(named, "".join(map(compact_json, records)))
 
     def varied(self, seed: int, count: int) -> Split:
-        """With `count` copies of each record with other values where it has some; parts of them go
-        on with another record, are of several places, or lack words. Raises PlannerError at task
-        level.
+        """With `count` copies of each record with other values where it has some; some go on with
+        another record, are of several places, or lack words. Raises PlannerError at task level.
         """
         from planner_ft.data.recombining import at_several, joined
         from planner_ft.data.varying import varied, with_heading, with_lost_words

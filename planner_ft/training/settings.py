@@ -9,18 +9,11 @@ import difflib
 import math
 import tomllib
 from collections.abc import Iterable
-from dataclasses import Field, asdict, dataclass, fields, replace
+from dataclasses import Field, asdict, dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
-if TYPE_CHECKING:
-    from planner_ft.vocabulary.plans import Level
-
-Schedule = Literal["cosine", "linear", "constant"]
-Optimizer = Literal["adamw", "adamw-8bit", "paged-adamw-8bit"]
-Checkpointing = Literal["auto", "on", "off"]
-Quantization = Literal["nf4", "none"]
-Select = Literal["loss", "f1"]
+from planner_ft.vocabulary.plans import Level
 
 _SHARED = {"learning_rate": 2e-4, "batch_size": 1, "quantization": "nf4"}
 PUBLISHED: dict[Level, dict[str, Any]] = {
@@ -39,7 +32,7 @@ class TrainSettings:
     rank: int = 16
     learning_rate: float = 2e-4
     batch_size: int = 1
-    quantization: Quantization = "nf4"
+    quantization: Literal["nf4", "none"] = "nf4"
 
     alpha: int | None = None
     dropout: float = 0.05
@@ -47,19 +40,19 @@ class TrainSettings:
     max_length: int = 4096
 
     gradient_accumulation: int = 1
-    schedule: Schedule = "cosine"
+    schedule: Literal["cosine", "linear", "constant"] = "cosine"
     warmup: float = 0.03
     weight_decay: float = 0.0
     gradient_clip: float = 1.0
-    optimizer: Optimizer = "adamw"
-    gradient_checkpointing: Checkpointing = "auto"
+    optimizer: Literal["adamw", "adamw-8bit", "paged-adamw-8bit"] = "adamw"
+    gradient_checkpointing: Literal["auto", "on", "off"] = "auto"
     seed: int = 0
     max_samples: int | None = None
     augment: int = 0
     vary: int = 0
     vocabulary_in_prompt: bool = False
     max_steps: int | None = None
-    select: Select = "loss"
+    select: Literal["loss", "f1"] = "loss"
     validation_answers: int = 25
 
     device: str = "auto"
@@ -114,28 +107,22 @@ class Source(NamedTuple):
         return f"--{name.replace('_', '-')}" if flag else f"{self.label}: {name}"
 
 
-@dataclass(frozen=True)
-class Resolved:
-    """Settings with the source of each value ("published", "default", "flag", ...)."""
-
-    settings: TrainSettings
-    origin: dict[str, str]
-
-    def on(self, device: str) -> Resolved:
-        """The same settings on another device."""
-        return replace(self, settings=replace(self.settings, device=device))
-
-    def departures(self, level: Level) -> list[str]:
-        """Sentences on published settings that this run does not use."""
-        return [
-            f"{name.replace('_', ' ')} {value} ({self.origin[name]}) instead of the published"
-            f" {published}"
-            for name, published in PUBLISHED[level].items()
-            if (value := getattr(self.settings, name)) != published
-        ]
+Origin = dict[str, str]
+"""The source of each value of settings: "published", "default", "flag", ..."""
 
 
-def resolve_settings(level: Level, sources: Iterable[Source], problems: list[str]) -> Resolved:
+def departures(level: Level, settings: TrainSettings, origin: Origin) -> list[str]:
+    """Sentences on published settings that a run does not use."""
+    return [
+        f"{name.replace('_', ' ')} {value} ({origin[name]}) instead of the published {published}"
+        for name, published in PUBLISHED[level].items()
+        if (value := getattr(settings, name)) != published
+    ]
+
+
+def resolve_settings(
+    level: Level, sources: Iterable[Source], problems: list[str]
+) -> tuple[TrainSettings, Origin]:
     """Settings from `sources`, the first one first, then published ones, then our defaults. A value
     of None counts as not given; everything wrong is added to `problems`.
     """
@@ -152,7 +139,7 @@ def resolve_settings(level: Level, sources: Iterable[Source], problems: list[str
                 origin[name] = source.label
                 if problem:
                     problems.append(f"{source.written(name)} = {value!r}: {problem}")
-    return Resolved(TrainSettings(**values), origin)
+    return TrainSettings(**values), origin
 
 
 def check_value(name: str, value: Any) -> tuple[Any, str | None]:

@@ -12,6 +12,8 @@ from typing import Any
 import pytest
 from rich.console import Console
 
+from planner_ft.support.terminal import terminal
+
 CURATED = Path(__file__).parents[2] / "data" / "mission" / "train.jsonl"
 STANDIN = "Llama-3.2-1B-Instruct"
 
@@ -39,7 +41,7 @@ def data(tmp_path: Path) -> Path:
 @pytest.fixture
 def quiet() -> Console:
     """A console whose text can be read back with `export_text()`."""
-    return Console(record=True, quiet=False, file=open("/dev/null", "w"), width=200)
+    return terminal(record=True, file=open("/dev/null", "w"), width=200, soft_wrap=True)
 
 
 @pytest.fixture

@@ -7,8 +7,7 @@ import torch
 
 from planner_ft.training.model import adapter_parameters, validation_loss
 from planner_ft.training.preflight import Prepared, run_preflight
-from planner_ft.training.probe import probe_model
-from planner_ft.training.run import ready_model
+from planner_ft.training.run import probe_model, ready_model
 
 FLOAT = torch.bfloat16
 CPU = torch.device("cpu")

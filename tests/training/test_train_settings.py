@@ -15,6 +15,7 @@ from planner_ft.training.settings import (
     PUBLISHED,
     Source,
     TrainSettings,
+    departures,
     resolve_settings,
 )
 
@@ -27,7 +28,7 @@ def resolved(*sources: Source, level: str = "mission"):
 
 
 def test_the_published_settings_are_the_defaults():
-    mission, task = resolved().settings, resolved(level="task").settings
+    mission, task = resolved()[0], resolved(level="task")[0]
     assert (mission.rank, mission.epochs, task.rank, task.epochs) == (16, 5, 8, 2)
     for settings in (mission, task):
         assert (settings.learning_rate, settings.batch_size, settings.quantization) == (
@@ -43,29 +44,24 @@ def test_flag_beats_recipe_beats_candidate_beats_published():
         Source("r.toml", {"rank": 3, "epochs": 4}),
     )
     candidate = Source("embedded", {"rank": 5, "epochs": 6.0, "learning_rate": 1e-3})
-    result = resolved(flag, recipe, candidate)
-    assert (
-        result.settings.rank,
-        result.settings.epochs,
-        result.settings.learning_rate,
-        result.settings.batch_size,
-    ) == (2, 4, 1e-3, 1)
+    found, origin = resolved(flag, recipe, candidate)
+    assert (found.rank, found.epochs, found.learning_rate, found.batch_size) == (2, 4, 1e-3, 1)
     assert [
-        result.origin[name] for name in ("rank", "epochs", "learning_rate", "batch_size", "dropout")
+        origin[name] for name in ("rank", "epochs", "learning_rate", "batch_size", "dropout")
     ] == ["flag", "r.toml", "embedded", "published", "default"]
 
 
 def test_departures_from_the_published_settings_are_said():
     result = resolved(Source("embedded", {"learning_rate": 1e-3}))
-    assert result.departures("mission") == [
+    assert departures("mission", *result) == [
         "learning rate 0.001 (embedded) instead of the published 0.0002"
     ]
-    assert resolved().departures("mission") == []
+    assert departures("mission", *resolved()) == []
 
 
 def test_alpha_follows_the_rank_unless_it_is_given():
-    assert resolved(Source("flag", {"rank": 4})).settings.lora_alpha == 8
-    assert resolved(Source("flag", {"rank": 4, "alpha": 5})).settings.lora_alpha == 5
+    assert resolved(Source("flag", {"rank": 4}))[0].lora_alpha == 8
+    assert resolved(Source("flag", {"rank": 4, "alpha": 5}))[0].lora_alpha == 5
 
 
 @pytest.mark.parametrize(
@@ -147,14 +143,14 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
             "select",
             "validation_answers",
         ):
-            assert request.resolved.origin[setting].endswith(f"{name}.toml"), setting
-    assert request.resolved.departures(request.level) == []
+            assert request.origin[setting].endswith(f"{name}.toml"), setting
+    assert request.departures() == []
     assert request.settings.learned() == TrainSettings(**PUBLISHED[request.level]).learned()
 
 
 def test_settings_are_frozen():
     with pytest.raises(dataclasses.FrozenInstanceError):
-        resolved().settings.rank = 3
+        resolved()[0].rank = 3
 
 
 def test_every_setting_is_a_flag():
@@ -171,11 +167,10 @@ def test_every_setting_is_a_flag():
 def test_each_embedded_candidate_has_settings_of_its_own():
     run = {"level": "mission", "candidate": "embedded"}
     own, other = (
-        build_request({**run, "vocabulary": name}, {}).resolved
-        for name in ("usv", "inspection_drone")
+        build_request({**run, "vocabulary": name}, {}) for name in ("usv", "inspection_drone")
     )
     assert own.origin["learning_rate"] == "embedded"
     assert other.origin["learning_rate"] == "embedded-reader"
     assert other.settings.learning_rate > 10 * own.settings.learning_rate
     real = build_request({**run, "candidate": "Qwen2.5-3B", "vocabulary": "inspection_drone"}, {})
-    assert real.resolved.departures("mission") == []
+    assert real.departures() == []
