@@ -1,10 +1,7 @@
 """Review of a plan by a person: approval log, verification, terminal, browser, harvest."""
 
-from planner_ft.review.approval import Approval as Approval
 from planner_ft.review.approval import approval_of as approval_of
 from planner_ft.review.approval import approve as approve
 from planner_ft.review.approval import reject as reject
-from planner_ft.review.log import append as append
-from planner_ft.review.log import check_log as check_log
 from planner_ft.review.log import log_beside as log_beside
 from planner_ft.review.log import read_log as read_log

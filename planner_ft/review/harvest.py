@@ -181,9 +181,7 @@ def _texts_of(tasks: Sequence[dict[str, Any]]) -> list[str]:
 
 
 def _as_commanded(task: dict[str, Any], command: str, vocabulary: Vocabulary) -> dict[str, Any]:
-    """The task as the command alone gives it: places that only the operator knew are open again,
-    and the vehicle's values are left out.
-    """
+    """The task as the command alone gives it: the operator's places open, no vehicle's values."""
     own = task.get("defaults", {})
     given = task["parameters"].items()
     parameters = {name: value for name, value in given if (name, value) not in own.items()}

@@ -15,13 +15,11 @@ from planner_ft.document.edits import Difference
 from planner_ft.document.track import track
 from planner_ft.document.tree import brief, constraint_lines, origin_line, overview_lines, task_tree
 from planner_ft.document.warnings.case import gravest_first, meaning
-from planner_ft.review.approval import Approval
-from planner_ft.review.changes import tampered
+from planner_ft.review.approval import Approval, tampered
 from planner_ft.review.chart import chart
 from planner_ft.review.commands import HELP
-from planner_ft.review.desk import Desk
+from planner_ft.review.desk import ChangedError, Desk
 from planner_ft.review.log import Appended
-from planner_ft.review.store import ChangedError
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.support.resources import clock
@@ -39,9 +37,6 @@ Read = Callable[[str], str]
 Texts = Sequence[str]
 Line = tuple[str, str]
 """A text, and its style for rich."""
-
-
-# ---------------------------------------------------------------- what is shown
 
 
 def review_lines(
@@ -124,9 +119,6 @@ def _estimate(document: PlanDocument) -> str:
     more += f"; ends {estimate['away']:g} m from home" if "away" in estimate else ""
     time = clock(estimate["seconds"])
     return f"{estimate['length']:.0f} m, {time} at a cruise speed of {speed:g} m/s{more}"
-
-
-# ---------------------------------------------------------------- what the reviewer does
 
 
 class Conversation:

@@ -60,7 +60,7 @@ class _Watch:
             self.told = now
             self.tell(frame_of(executor))
         due = 0.0 if over else executor.scene.time / self.speed - now
-        if self.stop.event.wait(max(0.0, due)):
+        if self.stop.wait(max(0.0, due)):
             executor.abort(ONE, self.stop.reason)
 
 

@@ -16,9 +16,8 @@ from planner_ft.support.files import nearest_folder
 
 @contextlib.contextmanager
 def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
-    """Refuse a second `work` ("a training") in `folder`, if any, beside the block. The lock lies
+    """Raise PlannerError for a second `work` ("a training") in `folder`, if any. The lock lies
     beside the folder, and a dead process holds none; what dead ones were `staging` is removed.
-    Raises PlannerError.
     """
     if folder is None:
         yield

@@ -38,8 +38,7 @@ def writing(path: Path | str, way: str, what: str = "cannot be written") -> Iter
 @contextlib.contextmanager
 def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
     """A temporary file beside `path` that replaces it when the block ends without an exception.
-    Raises PlannerError when the folder cannot be written or the disk is full; `path` is then as it
-    was.
+    Raises PlannerError (folder not writable, disk full); `path` is then as it was.
     """
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")

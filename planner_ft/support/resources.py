@@ -46,16 +46,12 @@ def clock(seconds: float) -> str:
     return f"{hours}:{minutes:02d}:{whole % 60:02d}" if hours else f"{minutes}:{whole % 60:02d}"
 
 
-DEATH_SIGNAL = 1
-"""PR_SET_PDEATHSIG of Linux."""
-
-
 def end_with_parent() -> None:
     """Have the system kill this process with the one that started it; on Linux alone."""
     if sys.platform == "linux":
         import ctypes
 
-        ctypes.CDLL(None).prctl(DEATH_SIGNAL, signal.SIGKILL)
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
 def memory_size(count: float) -> str:

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
@@ -21,22 +23,8 @@ Bounds = tuple[float | None, float | None, float | None]
 NOTHING = "–"
 LONGEST_CELL = 80
 """Characters of a cell in Markdown: names come from models."""
-TEX = {
-    "▲": "$\\blacktriangle$",
-    "▼": "$\\blacktriangledown$",
-    "≈": "$\\approx$",
-    "·": "$\\cdot$",
-    "★": "$\\star$",
-    "↑": "$\\uparrow$",
-    "↓": "$\\downarrow$",
-    "<": "$<$",
-    ">": "$>$",
-    "–": "--",
-    "\\": "\\textbackslash{}",
-    "~": "\\textasciitilde{}",
-    "^": "\\textasciicircum{}",
-    **{character: f"\\{character}" for character in "&%$#_{}"},
-}
+TEX: dict[str, str] = json.loads(Path(__file__).with_name("tex.json").read_text(encoding="utf-8"))
+"""What LaTeX is given for characters that it reads or lacks."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document import PlanDocument, apply, differences, read_document
-from planner_ft.review.changes import MORE, changes, tampered
+from planner_ft.review.approval import MORE, changes, tampered
 from planner_ft.review.desk import open_desk
 from planner_ft.review.terminal import review_lines
 from planner_ft.support.files import compact_json, write_json

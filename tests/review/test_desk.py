@@ -13,8 +13,7 @@ import pytest
 from planner_ft.document import altered, read_document, write_document
 from planner_ft.planning.result import Answer
 from planner_ft.review import log_beside, read_log
-from planner_ft.review.desk import Desk, open_desk
-from planner_ft.review.store import ChangedError
+from planner_ft.review.desk import ChangedError, Desk, open_desk
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from tests.review.conftest import answer, go

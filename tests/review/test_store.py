@@ -11,12 +11,10 @@ import pytest
 
 from planner_ft.document import PlanDocument, document_digest, write_document
 from planner_ft.document.build import canonical
-from planner_ft.review import approval_of, approve, log_beside, reject, store
+from planner_ft.review import approval_of, approve, desk, log_beside, reject
 from planner_ft.review.approval import record_run
-from planner_ft.review.chain import Head, read_chain, sealed
-from planner_ft.review.desk import open_desk, settings_of
-from planner_ft.review.log import append, head_file
-from planner_ft.review.store import add_plan, plan_names, signature
+from planner_ft.review.desk import add_plan, open_desk, plan_names, settings_of, signature
+from planner_ft.review.log import Head, append, head_file, read_chain, sealed
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 
@@ -24,7 +22,7 @@ from planner_ft.vocabulary import Vocabulary
 def test_the_newest_200_plans_of_a_folder_are_offered(
     plan: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert store.MOST_PLANS == 200
+    assert desk.MOST_PLANS == 200
     for number in range(3):
         path = plan.with_name(f"more-{number}.json")
         path.write_bytes(plan.read_bytes())
@@ -37,18 +35,18 @@ def test_the_newest_200_plans_of_a_folder_are_offered(
         os.utime(plan.with_name(f"{name}.json"), (0, 1))
     newest = ["more-2.json", "more-1.json", "more-0.json", "near.json", "plan.json"]
     assert plan_names(plan.parent) == newest
-    monkeypatch.setattr(store, "MOST_PLANS", 2)
+    monkeypatch.setattr(desk, "MOST_PLANS", 2)
     assert plan_names(plan.parent) == newest[:2]
 
 
 def test_plans_of_one_second_are_numbered_from_two(tmp_path: Path, document: PlanDocument) -> None:
-    class Clock(store.datetime):
+    class Clock(desk.datetime):
         @classmethod
         def now(cls, tz: Any = None) -> Any:
             return cls(2030, 1, 2, 3, 4, 5, tzinfo=tz)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(store, "datetime", Clock)
+        patch.setattr(desk, "datetime", Clock)
         names = [add_plan(tmp_path, document).name for _plan in range(3)]
     assert names == [f"plan-20300102-030405{more}.json" for more in ("", "-2", "-3")]
 

@@ -9,8 +9,7 @@ import pytest
 from rich.console import Console
 
 from planner_ft.document import PlanDocument, document_digest, write_document
-from planner_ft.review.approval import Approval
-from planner_ft.review.changes import Change
+from planner_ft.review.approval import Approval, Change
 from planner_ft.review.desk import open_desk
 from planner_ft.review.terminal import Conversation, approval_text, review_lines
 from planner_ft.vocabulary import Vocabulary

@@ -20,24 +20,17 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, ExceptionHandler
 
 from planner_ft.review.approval import UnacknowledgedError
-from planner_ft.review.store import ChangedError
+from planner_ft.review.desk import ChangedError
 from planner_ft.review.web.guard import ASK_THE_TERMINAL, LARGEST_BODY, TOO_LARGE, Door, Guard
 from planner_ft.review.web.planning import BusyError
 from planner_ft.review.web.session import Session
 from planner_ft.support.errors import PlannerError, QuestionError
-from planner_ft.support.files import compact_json, decode_json
+from planner_ft.support.files import decode_json
 from planner_ft.vocabulary.plans import is_position
 
 PAGE = Path(__file__).parent / "page"
 LOOK_EVERY = 1.0
 """Seconds between looks at the disk for changes by others."""
-
-
-class Json(JSONResponse):
-    """JSON as the rest of the package writes it."""
-
-    def render(self, content: Any) -> bytes:
-        return compact_json(content).encode()
 
 
 def web_app(session: Session, door: Door) -> ASGIApp:
@@ -51,9 +44,7 @@ def web_app(session: Session, door: Door) -> ASGIApp:
             yield
         finally:
             looking.cancel()
-            session.runs.end()
-            session.planning.stop()
-            session.events.close()
+            session.end()
 
     handlers: dict[Any, ExceptionHandler] = {HTTPException: _http_problem, PlannerError: _problem}
     handlers |= {ClientDisconnect: _gone, Exception: _bug}
@@ -71,9 +62,9 @@ async def _look(session: Session) -> None:
 
 def _page_routes(door: Door) -> list[BaseRoute]:
     async def index(request: Request) -> Response:
-        if door.keys.opens(request.query_params.get("token", "")):
+        if door.opens(request.query_params.get("token", "")):
             answer = responses.RedirectResponse("/", 303)
-            key = door.keys.session
+            key = door.key
             answer.set_cookie(door.cookie, key, httponly=True, samesite="strict", path="/")
             return answer
         if not door.admits(request):
@@ -87,43 +78,32 @@ def _page_routes(door: Door) -> list[BaseRoute]:
 
 
 def _api_routes(session: Session) -> list[Route]:
-    async def state(_request: Request) -> Response:
-        return Json(await run_in_threadpool(session.state))
-
-    async def track(_request: Request) -> Response:
-        return Json(await run_in_threadpool(session.runs.track))
-
     async def events(_request: Request) -> Response:
         news = session.events.listen()
         return responses.StreamingResponse(news, media_type="text/event-stream")
 
-    def change(method: Callable[..., Any]) -> Route:
-        """POST to a method of the session, whose arguments are the keys of the request: 200 with
+    def route(method: Callable[..., Any]) -> Route:
+        """A method of the session whose arguments are the keys of a POST, none of a GET: 200 with
         the new state, 202 while agents work.
         """
         keys = inspect.signature(method).parameters.values()
 
         async def answer(request: Request) -> Response:
-            body = await _body(request)
+            body = await _body(request) if keys else {}
             values = [_field(body.get(key.name), key) for key in keys]
             try:
                 after = await run_in_threadpool(method, *values)
             except ChangedError as error:
                 now = await run_in_threadpool(session.state)
-                return Json({"error": str(error), "state": now}, 409)
-            return Json({}, 202) if after is None else Json(after)
+                return JSONResponse({"error": str(error), "state": now}, 409)
+            return JSONResponse({}, 202) if after is None else JSONResponse(after)
 
-        return Route(f"/api/{method.__name__}", answer, methods=["POST"])
+        return Route(f"/api/{method.__name__}", answer, methods=["POST" if keys else "GET"])
 
-    changes: list[Callable[..., Any]] = [session.plan, session.open, session.edit, session.undo]
-    changes += [session.skills, session.approve, session.reject, session.export]
-    changes += [session.run, session.abort]
-    return [
-        Route("/api/state", state),
-        Route("/api/events", events),
-        Route("/api/track", track),
-        *map(change, changes),
-    ]
+    methods: list[Callable[..., Any]] = [session.state, session.runs.track, session.plan]
+    methods += [session.open, session.edit, session.undo, session.skills, session.approve]
+    methods += [session.reject, session.export, session.run, session.abort]
+    return [Route("/api/events", events), *map(route, methods)]
 
 
 async def _body(request: Request) -> dict[str, Any]:
@@ -179,16 +159,18 @@ SENTENCES = {
 
 async def _http_problem(_request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
-    return Json({"error": SENTENCES.get(error.status_code, error.detail)}, error.status_code)
+    return JSONResponse(
+        {"error": SENTENCES.get(error.status_code, error.detail)}, error.status_code
+    )
 
 
 async def _problem(_request: Request, error: Exception) -> Response:
     if isinstance(error, UnacknowledgedError):
         count = f"{len(error.missing)} warnings are not acknowledged"
         sentence = f"{count}; read each of them and acknowledge it."
-        return Json({"error": sentence, "missing": list(error.missing)}, 422)
+        return JSONResponse({"error": sentence, "missing": list(error.missing)}, 422)
     more = {"question": error.question} if isinstance(error, QuestionError) else {}
-    return Json({"error": str(error), **more}, 409 if isinstance(error, BusyError) else 422)
+    return JSONResponse({"error": str(error), **more}, 409 if isinstance(error, BusyError) else 422)
 
 
 async def _gone(_request: Request, _error: Exception) -> Response:
@@ -197,4 +179,6 @@ async def _gone(_request: Request, _error: Exception) -> Response:
 
 async def _bug(_request: Request, error: Exception) -> Response:
     name = type(error).__name__
-    return Json({"error": f"The program made a mistake ({name}); nothing was changed."}, 500)
+    return JSONResponse(
+        {"error": f"The program made a mistake ({name}); nothing was changed."}, 500
+    )

@@ -12,28 +12,21 @@ import contextlib
 import ipaddress
 import secrets
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from starlette.datastructures import MutableHeaders
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from planner_ft.support.files import read_json
+
 LARGEST_BODY = 256 * 1024
 """Bytes of a request's body at most."""
 TOO_LARGE = f"The request is larger than {LARGEST_BODY // 1024} kB; send less."
 PATIENCE_S = 1.0
 """How long the body of a refused request is waited for."""
-HEADERS = {
-    "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src"
-        " 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    ),
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Cache-Control": "no-store",
-}
+HEADERS: dict[str, str] = read_json(Path(__file__).with_name("headers.json"))
 """Headers of every answer."""
 ASK_THE_TERMINAL = (
     "This page needs the address that the terminal shows, with its key: open that one."
@@ -44,15 +37,17 @@ OTHER_NAME = (
 
 
 @dataclass
-class Keys:
-    """The key of a session, and one for a browser's command line, which opens it once."""
+class Door:
+    """Host and port of the server, the session's key, and one that opens it once (a browser's)."""
 
-    session: str = field(default_factory=lambda: secrets.token_urlsafe(32))
+    host: str
+    port: int
+    key: str = field(default_factory=lambda: secrets.token_urlsafe(32))
     once: str | None = field(default_factory=lambda: secrets.token_urlsafe(32))
 
     def is_session(self, key: str) -> bool:
-        """Whether this is the session's key, compared in constant time."""
-        return _same(key, self.session)
+        """Whether this is the session's key."""
+        return _same(key, self.key)
 
     def opens(self, key: str) -> bool:
         """Whether this key opens the session; the other key does so once."""
@@ -60,19 +55,6 @@ class Keys:
             self.once = None
             return True
         return self.is_session(key)
-
-
-def _same(key: str, other: str) -> bool:
-    return secrets.compare_digest(key.encode(errors="replace"), other.encode())
-
-
-@dataclass(frozen=True)
-class Door:
-    """Host and port of the server, and the keys to it."""
-
-    host: str
-    port: int
-    keys: Keys = field(default_factory=Keys)
 
     @property
     def cookie(self) -> str:
@@ -93,12 +75,17 @@ class Door:
     def admits(self, request: Request) -> bool:
         """Whether a request has the session's key, in its cookie or as a bearer."""
         cookie = request.cookies.get(self.cookie, "")
-        return self.keys.is_session(cookie) or self.is_bearer(request)
+        return self.is_session(cookie) or self.is_bearer(request)
 
     def is_bearer(self, request: Request) -> bool:
         """Whether the Authorization header has the session's key, which no other site has."""
         scheme, _space, key = request.headers.get("authorization", "").partition(" ")
-        return scheme.lower() == "bearer" and self.keys.is_session(key)
+        return scheme.lower() == "bearer" and self.is_session(key)
+
+
+def _same(key: str, other: str) -> bool:
+    """Whether two keys are the same, compared in constant time."""
+    return secrets.compare_digest(key.encode(errors="replace"), other.encode())
 
 
 def bracketed(host: str) -> str:
@@ -136,9 +123,7 @@ class Guard:
 
 
 async def _read_on(receive: Receive) -> None:
-    """Read the body of a refused request: the end of a connection with unread bytes is a reset, by
-    which the answer can be lost.
-    """
+    """Read a refused request's body: a connection that ends before is reset, the answer lost."""
     with contextlib.suppress(TimeoutError):
         async with asyncio.timeout(PATIENCE_S):
             while (await receive()).get("more_body"):

@@ -6,29 +6,29 @@ import contextlib
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 from typing import Any
 
 from planner_ft.review.approval import record_run
 from planner_ft.review.desk import Desk
-from planner_ft.review.web.events import Events
-from planner_ft.review.web.planning import BusyError
+from planner_ft.review.web.planning import BusyError, Events
 from planner_ft.support.errors import PlannerError
 
 SPEEDS = (1, 2, 5, 10, 20, 50)
 """Simulated seconds in one second."""
+RUNNING = "running"
+"""The outcome of a run until its files are written."""
 PATIENCE = 2.0
 """Seconds within which a run that is aborted has ended; its files come later."""
 Frame = dict[str, Any]
 """t (s), pose [x, y, yaw], task, step, skills, left (s): a moment of a run."""
 
 
-@dataclass
-class Stop:
-    """Ends a run at its next step once it is `set`; `reason` stands in its log."""
+class Stop(threading.Event):
+    """Ends a run at its next step once it is set; `reason` stands in its log."""
 
-    reason: str = ""
-    event: threading.Event = field(default_factory=threading.Event)
+    reason = ""
 
 
 Runner = Callable[[Path, Path, Path, str, float, Callable[[Frame], None], Stop], dict[str, Any]]
@@ -48,18 +48,13 @@ class _Run:
     speed: int
     stop: Stop = field(default_factory=Stop)
     frames: list[Frame] = field(default_factory=list)
-    outcome: str = "running"
+    outcome: str = RUNNING
     reason: str = ""
-
-    @property
-    def ended(self) -> bool:
-        """Whether its files are written."""
-        return self.outcome != "running"
 
     @property
     def is_on(self) -> bool:
         """Whether it moves."""
-        return not self.ended and not self.stop.event.is_set()
+        return self.outcome == RUNNING and not self.stop.is_set()
 
 
 @dataclass
@@ -83,7 +78,11 @@ class Runs:
             return {**known, "status": None}
         told = {"plan": run.desk.path.name, "by": run.by, "speed": run.speed}
         told |= {"folder": run.folder.name, "reason": run.reason or run.stop.reason}
-        return {**known, **told, "status": run.outcome if run.is_on or run.ended else "stopped"}
+        return {
+            **known,
+            **told,
+            "status": "stopped" if run.outcome == RUNNING and not run.is_on else run.outcome,
+        }
 
     def track(self) -> dict[str, Any]:
         """All frames so far, for a page that comes later and for the replay."""
@@ -132,7 +131,7 @@ class Runs:
                 raise PlannerError("no run is on; there is nothing to abort")
             by = name.strip() or run.by
             run.stop.reason = why.removesuffix(", ") or f"aborted by {by}"
-            run.stop.event.set()
+            run.stop.set()
             at = run.frames[-1]["t"] if run.frames else 0.0
         words = f"{why}after {at:g} s, {run.folder.name}"
         record_run("aborted", run.desk.document, self.log, by, words)
@@ -140,7 +139,7 @@ class Runs:
     def _carry_out(self, runner: Runner, run: _Run) -> None:
         def tell(frame: Frame) -> None:
             with self._lock:
-                if not run.stop.event.is_set():
+                if not run.stop.is_set():
                     run.frames.append(frame)
                     self.events.tell("run", frame)
 
@@ -162,7 +161,5 @@ class Runs:
 
 def _free(plan: Path) -> Path:
     """A folder beside the plan that no run has yet."""
-    number = 1
-    while (folder := plan.with_suffix(f".run-{number:02d}")).exists():
-        number += 1
-    return folder
+    folders = (plan.with_suffix(f".run-{number:02d}") for number in count(1))
+    return next(folder for folder in folders if not folder.exists())

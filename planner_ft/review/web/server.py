@@ -16,14 +16,11 @@ import h11
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from planner_ft.document import read_document
-from planner_ft.document.vehicle import Vehicle
 from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door, bracketed, is_wildcard
 from planner_ft.review.web.session import LOOPBACK, Session, WebSettings
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import show
-from planner_ft.vocabulary import load_vocabulary
 
 SLOWEST_REQUEST = 10.0
 """Seconds within which a request must have come in whole."""
@@ -38,11 +35,9 @@ def serve(plan: Path | None, settings: WebSettings) -> None:
 
     Ends the process itself when the agents are still at work. Raises PlannerError.
     """
-    vocabulary = load_vocabulary(settings.planning.vocabulary)
-    vehicle = Vehicle(**read_document(plan, vocabulary)["vehicle"]) if plan is not None else None
+    session = Session(plan, settings)
     with _listening(settings) as listener:
         door = Door(settings.host, listener.getsockname()[1])
-        session = Session(plan, settings, vocabulary, vehicle)
         try:
             _say_where(settings, door)
             _Server(session, door).run(sockets=[listener])
@@ -74,9 +69,7 @@ class _Server(uvicorn.Server):
         super().__init__(config)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        self.session.planning.stop()
-        self.session.runs.end()
-        self.session.events.close()
+        self.session.end()
         await super().shutdown(sockets)
 
 
@@ -142,11 +135,11 @@ def _say_where(settings: WebSettings, door: Door) -> None:
         )
     host = LOOPBACK if is_wildcard(settings.host) else settings.host
     base = f"http://{bracketed(host)}:{door.port}/?token="
-    show(f"Review at {base}{door.keys.session}\nCtrl-C ends it.")
+    show(f"Review at {base}{door.key}\nCtrl-C ends it.")
     # Without a screen a text browser would take the terminal.
     screen = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     if settings.open_browser and (screen or sys.platform in ("darwin", "win32")):
-        address = f"{base}{door.keys.once}"
+        address = f"{base}{door.once}"
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 

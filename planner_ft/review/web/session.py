@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ipaddress
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any
 
 from planner_ft.document import PlanDocument, altered, build, read_document
 from planner_ft.document.edits import KINDS, Edit
@@ -14,24 +14,26 @@ from planner_ft.document.vehicle import Vehicle
 from planner_ft.document.warnings.asked import other_language
 from planner_ft.planning.essentials import asked as needed
 from planner_ft.planning.locations import Position, is_open
-from planner_ft.planning.planner import SkillsKnown, TasksKnown, check_command
-from planner_ft.planning.result import Answer
+from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown, check_command
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.approval import check_name
-from planner_ft.review.desk import Desk, skills_edit
+from planner_ft.review.desk import (
+    ChangedError,
+    Desk,
+    State,
+    add_plan,
+    plan_names,
+    plan_state,
+    signature,
+    skills_edit,
+)
 from planner_ft.review.log import log_beside
-from planner_ft.review.store import ChangedError, add_plan, plan_names, signature
-from planner_ft.review.web.events import Events
-from planner_ft.review.web.planning import Planning
+from planner_ft.review.web.planning import Events, Planning
 from planner_ft.review.web.run import Runner, Runs
-from planner_ft.review.web.state import State, plan_state, vocabulary_json
 from planner_ft.support.errors import PlannerError, QuestionError
 from planner_ft.support.geodesy import Origin
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import task_entry
-
-if TYPE_CHECKING:
-    from planner_ft.planning.planner import Planner
 
 LOOPBACK, LAST_PORT = "127.0.0.1", 65535
 LONGEST_COMMAND = 20_000
@@ -47,7 +49,7 @@ NOWHERE: Locations = {}
 class WebSettings:
     """Address, files and agents: `port` 0 is a free one, log and folder are the plan's, `reviewer`
     is the name that the page begins with, `origin` is that of new commands, `exporting` writes
-    approved plans for vehicles.
+    approved plans for vehicles (planner_ft.exporters.run), `runner` carries them out.
     """
 
     host: str = LOOPBACK
@@ -58,7 +60,7 @@ class WebSettings:
     reviewer: str = ""
     planning: PlanSettings = field(default_factory=PlanSettings)
     origin: Origin | None = None
-    exporting: Exporting | None = None
+    exporting: Any = None
     runner: Runner | None = None
 
     def __post_init__(self) -> None:
@@ -76,36 +78,22 @@ class WebSettings:
             return False
 
 
-class Exporting(Protocol):
-    """What writes approved plans for vehicles (planner_ft.exporters.run)."""
-
-    def formats(self) -> list[dict[str, Any]]: ...
-
-    def hand_over(
-        self, plan: Path, log: Path, names: list[str], origin: str, *, overwrite: bool, sure: bool
-    ) -> list[dict[str, Any]]:
-        """Write a plan in these formats. Raises QuestionError for a doubtful origin."""
-
-
 class Session:
     """State and actions of the pages, from any thread; a PlannerError is shown to people."""
 
-    def __init__(
-        self,
-        plan: Path | None,
-        settings: WebSettings,
-        vocabulary: Vocabulary,
-        vehicle: Vehicle | None = None,
-    ) -> None:
-        """`plan` is shown first; `vehicle` is for new commands, the vocabulary's own by default."""
-        self.path, self.vocabulary, self.vehicle = plan, vocabulary, vehicle
+    def __init__(self, plan: Path | None, settings: WebSettings) -> None:
+        """`plan` is shown first; new commands are for its vehicle, or the vocabulary's own."""
+        self.path, self.vocabulary = plan, load_vocabulary(settings.planning.vocabulary)
+        document = read_document(plan, self.vocabulary) if plan else None
+        self.vehicle = Vehicle(**document["vehicle"]) if document else None
         self.folder = settings.folder or (plan.parent if plan else Path())
         self.log = settings.log or log_beside(self.folder / "any")
         self.origin, self.reviewer = settings.origin, settings.reviewer
         self.exporting = settings.exporting
         self.events = Events()
         self.planning = Planning(settings.planning, self.events, self.tell_state)
-        self.runs = Runs(settings.runner, self.log, vocabulary.source, self.events, self.tell_state)
+        source = self.vocabulary.source
+        self.runs = Runs(settings.runner, self.log, source, self.events, self.tell_state)
         self._known: Any = self._signature()
         self._shown: tuple[Any, State] = (None, {})
 
@@ -138,6 +126,12 @@ class Session:
         except PlannerError:
             revision = None
         self.events.tell("state", {"revision": revision})
+
+    def end(self) -> None:
+        """End agents, run and event streams, which would keep a server waiting."""
+        self.planning.stop()
+        self.runs.end()
+        self.events.close()
 
     # ------------------------------------------------------------ actions of a page
 
@@ -176,8 +170,12 @@ class Session:
         if self.exporting is None:
             raise PlannerError("nothing exports plans here; plannerft export does")
         desk = self._desk(revision)
-        flags = {"overwrite": overwrite, "sure": sure}
-        return self.exporting.hand_over(desk.path, desk.log, formats, origin, **flags)
+        asked, flags = (
+            (desk.path, desk.log, formats, origin),
+            {"overwrite": overwrite, "sure": sure},
+        )
+        written: list[dict[str, Any]] = self.exporting.hand_over(*asked, **flags)
+        return written
 
     def run(self, revision: str, name: str, speed: float) -> State:
         """Carry the approved plan out, watched by the pages."""
@@ -230,7 +228,14 @@ class Session:
             if answer.plan is None:
                 problem = f"the Task Agent's answer is not valid ({answer.problems[0]})"
                 raise PlannerError(f"task {task}: {problem}; the task keeps the skills that it has")
-            self._take_skills(desk.path, asked, skills_edit(task, answer.plan, answer), by)
+            now = self._desk(by=by)  # the plan may have been edited meanwhile
+            if now.path != desk.path:
+                problem = "another plan is shown since its skills were asked for"
+                raise PlannerError(f"task {task}: {problem}; open {desk.path.name} and ask again")
+            if task_entry(_task(now.document, task)) != task_entry(asked):
+                problem = "was edited while its skills were planned"
+                raise PlannerError(f"task {task} {problem}; ask again")
+            now.apply(skills_edit(task, answer.plan, answer))
 
         self.planning.ask({"what": "skills", "label": f"skills of task {task}"}, work)
 
@@ -240,7 +245,7 @@ class Session:
         """The plan as on the disk. Raises ChangedError when it is not of the given revision."""
         if self.path is None:
             raise ChangedError("there is no plan yet; plan a command first")
-        desk = Desk(self.path, self.log, self.vocabulary, _no_agent, by.strip() or None)
+        desk = Desk(self.path, self.log, self.vocabulary, by=by.strip() or None)
         if revision not in (None, desk.revision):
             raise ChangedError.of(self.path)
         return desk
@@ -254,18 +259,6 @@ class Session:
             way_out = f"take the changes over with `plannerft review {name} --adopt`"
             raise PlannerError(f"{name} was changed by hand; {way_out} before you edit it")
         return desk
-
-    def _take_skills(
-        self, path: Path, asked: dict[str, Any], edit: dict[str, Any], by: str
-    ) -> None:
-        """Put a task's skills into the plan, which may have been edited meanwhile."""
-        desk, name = self._desk(by=by), asked["id"]
-        if desk.path != path:
-            problem = "another plan is shown since its skills were asked for"
-            raise PlannerError(f"task {name}: {problem}; open {path.name} and ask again")
-        if task_entry(_task(desk.document, name)) != task_entry(asked):
-            raise PlannerError(f"task {name} was edited while its skills were planned; ask again")
-        desk.apply(edit)
 
     def _watch(self, event: TasksKnown | SkillsKnown) -> None:
         """Show a plan to the pages while it comes into being."""
@@ -289,12 +282,22 @@ class Session:
         return self.path, signature(self.path), signature(self.log)
 
 
-def _no_agent(_task: Mapping[str, Any]) -> Answer:
-    raise AssertionError("decisions ask no agent")
-
-
 def _task(document: PlanDocument, ident: str) -> dict[str, Any]:
     tasks: dict[str, dict[str, Any]] = {task["id"]: task for task in document["tasks"]}
     if ident not in tasks:
         raise PlannerError(f"task {ident}: is not in the plan any more")
     return tasks[ident]
+
+
+def vocabulary_json(vocabulary: Vocabulary) -> dict[str, Any]:
+    """The vocabulary for the page: tasks, skills, home, and the place that is not known."""
+
+    def described(entry: Any, *keys: str) -> dict[str, Any]:
+        parameters = [asdict(parameter) for parameter in entry.parameters]
+        return {**{key: getattr(entry, key) for key in keys}, "parameters": parameters}
+
+    places = {"home": list(vocabulary.home), "unresolved": list(vocabulary.unresolved)}
+    tasks = [described(task, "title", "category", "description") for task in vocabulary.tasks]
+    keys, skills = ("category", "role", "description"), vocabulary.skills
+    by_name = {skill.name: described(skill, *keys) for skill in skills}
+    return {"name": vocabulary.name, **places, "tasks": tasks, "skills": by_name}

@@ -81,15 +81,13 @@ def serve_plan(tmp_path: Path) -> Serve:
     def make(path: Path | None, **settings: Any) -> TestClient:
         planning = PlanSettings(configuration="base", **settings)
         session = Session(
-            path,
-            WebSettings(folder=tmp_path, planning=planning, exporting=exporting),
-            load_vocabulary(),
+            path, WebSettings(folder=tmp_path, planning=planning, exporting=exporting)
         )
         door = Door("127.0.0.1", PORT)
         client = TestClient(
             web_app(session, door), base_url=BASE, follow_redirects=False, headers={"Origin": BASE}
         )
-        client.cookies.set(door.cookie, door.keys.session)
+        client.cookies.set(door.cookie, door.key)
         client.app_state.update(session=session, door=door)
         return client
 

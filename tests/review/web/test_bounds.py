@@ -12,17 +12,16 @@ from starlette.requests import Request
 
 from planner_ft.planning.planner import check_command
 from planner_ft.planning.settings import PlanSettings
-from planner_ft.review.web import app, events, guard, server, session
-from planner_ft.review.web.events import Events
-from planner_ft.review.web.guard import Door, Keys, refusal
-from planner_ft.review.web.planning import Planning, sentence
+from planner_ft.review.web import app, guard, planning, server, session
+from planner_ft.review.web.guard import Door, refusal
+from planner_ft.review.web.planning import Events, Planning, sentence
 from planner_ft.review.web.server import _PromptProtocol
 from planner_ft.review.web.session import Session, WebSettings
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import is_position
 from tests.review.web.conftest import PORT, REMOVE, Serve, post, state
 
-DOOR = Door("127.0.0.1", PORT, Keys("k" * 43, None))
+DOOR = Door("127.0.0.1", PORT, "k" * 43, None)
 HOST = f"127.0.0.1:{PORT}"
 SENT = {
     "host": HOST,
@@ -81,12 +80,12 @@ def test_what_is_let_in(changed: dict[str, Any], status: int | None) -> None:
 
 
 def test_keys_are_long_different_and_one_of_them_opens_once() -> None:
-    keys, others = Keys(), Keys()
-    assert len({keys.session, keys.once, others.session, others.once}) == 4
-    assert {len(key or "") for key in (keys.session, keys.once)} == {43}
-    once = keys.once or ""
-    assert keys.opens(keys.session) and keys.opens(once)
-    assert not keys.opens(once) and keys.opens(keys.session) and not keys.is_session(once)
+    door, other = Door("127.0.0.1", PORT), Door("127.0.0.1", PORT)
+    assert len({door.key, door.once, other.key, other.once}) == 4
+    assert {len(key or "") for key in (door.key, door.once)} == {43}
+    once = door.once or ""
+    assert door.opens(door.key) and door.opens(once)
+    assert not door.opens(once) and door.opens(door.key) and not door.is_session(once)
 
 
 @pytest.mark.parametrize(
@@ -219,7 +218,7 @@ def test_a_review_asks_for_the_state_when_a_file_changes_and_not_else(
 
 
 def test_a_page_may_be_a_thousand_events_behind_and_no_more() -> None:
-    assert events.MOST_WAITING == 1000
+    assert planning.MOST_WAITING == 1000
 
     async def heard(behind: int) -> int:
         own, count = Events(), 0
@@ -234,12 +233,12 @@ def test_a_page_may_be_a_thousand_events_behind_and_no_more() -> None:
         return count
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(events, "MOST_WAITING", 3)
+        patch.setattr(planning, "MOST_WAITING", 3)
         assert [asyncio.run(heard(number)) for number in (2, 3, 4)] == [2, 3, 3]
 
 
 def test_a_quiet_connection_is_kept_alive_each_quarter_of_a_minute() -> None:
-    assert events.KEEP_ALIVE == 15
+    assert planning.KEEP_ALIVE == 15
 
     async def story() -> list[str]:
         own = Events()
@@ -249,7 +248,7 @@ def test_a_quiet_connection_is_kept_alive_each_quarter_of_a_minute() -> None:
         return [*heard, await anext(listening)]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(events, "KEEP_ALIVE", 0.01)
+        patch.setattr(planning, "KEEP_ALIVE", 0.01)
         found = asyncio.run(story())
     assert found[:2] == [": connected\n\n", ": still here\n\n"]
     assert found[2] in (": still here\n\n", 'event: state\ndata: {"a":1}\n\n')
@@ -358,7 +357,7 @@ def test_the_oldest_of_a_hundred_unfinished_connections_makes_room() -> None:
 def test_the_address_that_is_printed_and_the_warning(
     capsys: pytest.CaptureFixture[str], host: str, shown: str, *, warned: bool
 ) -> None:
-    server._say_where(WebSettings(host=host, open_browser=False), Door(host, PORT, DOOR.keys))
+    server._say_where(WebSettings(host=host, open_browser=False), Door(host, PORT, DOOR.key))
     printed = capsys.readouterr()
     assert printed.out == f"Review at {shown}?token={'k' * 43}\nCtrl-C ends it.\n"
     assert ("others on the network" in printed.err) is warned
@@ -386,8 +385,8 @@ def test_a_browser_is_opened_where_there_is_a_screen(
         monkeypatch.delenv(name, raising=False)
     if screen:
         monkeypatch.setenv(screen, ":0")
-    keys = Keys("k" * 43, "once")
-    server._say_where(WebSettings(open_browser=wanted), Door("127.0.0.1", PORT, keys))
+    door = Door("127.0.0.1", PORT, "k" * 43, "once")
+    server._say_where(WebSettings(open_browser=wanted), door)
     assert found == [f"http://127.0.0.1:{PORT}/?token=once"] * opened
 
 

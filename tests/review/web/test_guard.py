@@ -36,7 +36,7 @@ def without_origin(client: TestClient) -> TestClient:
 def test_the_key_in_the_address_becomes_a_cookie_that_no_script_and_no_other_site_has(
     client: TestClient,
 ) -> None:
-    key = door(client).keys.session
+    key = door(client).key
     client.cookies.clear()
     answered = client.get(f"/?token={key}")
     assert (answered.status_code, answered.headers["location"]) == (303, "/")
@@ -51,12 +51,12 @@ def test_the_key_in_the_address_becomes_a_cookie_that_no_script_and_no_other_sit
 
 
 def test_the_browser_that_the_program_opens_gets_a_key_that_works_once(client: TestClient) -> None:
-    once = door(client).keys.once
+    once = door(client).once
     client.cookies.clear()
     assert (
         client.get(f"/?token={once}")
         .headers["set-cookie"]
-        .startswith(f"plannerft_{PORT}={door(client).keys.session};")
+        .startswith(f"plannerft_{PORT}={door(client).key};")
     )
     client.cookies.clear()
     assert client.get(f"/?token={once}").status_code == 403
@@ -83,14 +83,14 @@ def test_without_the_key_there_is_neither_page_nor_plan(client: TestClient, key:
 
 def test_the_key_of_another_server_on_this_machine_is_none(client: TestClient) -> None:
     assert Door("127.0.0.1", PORT).cookie != Door("127.0.0.1", PORT + 1).cookie
-    key = door(client).keys.session
+    key = door(client).key
     client.cookies.clear()
     client.cookies.set(f"plannerft_{PORT + 1}", key)
     assert client.get("/api/state").status_code == 403
 
 
 def test_a_program_may_use_the_key_as_a_bearer_and_needs_no_origin(client: TestClient) -> None:
-    revision, key = state(client)["revision"], door(client).keys.session
+    revision, key = state(client)["revision"], door(client).key
     client.cookies.clear()
     body = {"revision": revision, "edit": REMOVE}
     answered = without_origin(client).post(
@@ -141,7 +141,7 @@ def edit_as(client: TestClient, headers: dict[str, str]) -> int:
 def test_a_page_of_another_origin_changes_nothing(client: TestClient, origin: str) -> None:
     before = state(client)["revision"]
     assert edit_as(client, {"Origin": origin}) == 403
-    bearer = {"Origin": origin, "Authorization": f"Bearer {door(client).keys.session}"}
+    bearer = {"Origin": origin, "Authorization": f"Bearer {door(client).key}"}
     assert edit_as(client, bearer) == 403
     assert state(client)["revision"] == before
 

@@ -16,8 +16,8 @@ from starlette.testclient import TestClient
 
 from planner_ft.decoding.engine import Engine
 from planner_ft.document import read_document
-from planner_ft.review.store import add_plan
-from planner_ft.review.web.events import MOST_WAITING, Events
+from planner_ft.review.desk import add_plan
+from planner_ft.review.web.planning import MOST_WAITING, Events
 from planner_ft.support.errors import PlannerError
 from tests.planning.conftest import FIND_AND_ORBIT, HOLD, SKILLS, Known, KnownAnswers, mission, task
 from tests.review.web.conftest import COMMAND, MARKUP, REMOVE, Serve, post, state

@@ -20,7 +20,6 @@ from planner_ft.review.web.run import Runner
 from planner_ft.review.web.session import Session, WebSettings
 from planner_ft.simulation import output
 from planner_ft.simulation.live import run_live
-from planner_ft.vocabulary import load_vocabulary
 from tests.documents import document
 from tests.review.web.conftest import BASE, PORT, post, state
 from tests.simulation.plans import saved, transit
@@ -38,9 +37,9 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> Iterator[Open]:
 
     def open_plan(path: Path, runner: Runner | None = run_live) -> TestClient:
         settings = WebSettings(planning=PlanSettings(configuration="base"), runner=runner)
-        session, door = Session(path, settings, load_vocabulary()), Door("127.0.0.1", PORT)
+        session, door = Session(path, settings), Door("127.0.0.1", PORT)
         client = TestClient(web_app(session, door), base_url=BASE, headers={"Origin": BASE})
-        client.cookies.set(door.cookie, door.keys.session)
+        client.cookies.set(door.cookie, door.key)
         sessions.append(session)
         return client
 

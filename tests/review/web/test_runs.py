@@ -12,7 +12,7 @@ from planner_ft.document import PlanDocument, read_document, write_document
 from planner_ft.review import approve, log_beside, read_log
 from planner_ft.review.desk import open_desk
 from planner_ft.review.web import run
-from planner_ft.review.web.events import Events
+from planner_ft.review.web.planning import Events
 from planner_ft.review.web.run import Runs, _free
 from planner_ft.support.errors import PlannerError
 from tests.review.web.conftest import make_document

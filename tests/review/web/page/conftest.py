@@ -218,7 +218,6 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
                 exporting=exporting,
                 runner=run_live,
             ),
-            load_vocabulary(),
         )
         server = uvicorn.Server(
             uvicorn.Config(
@@ -364,7 +363,7 @@ def opened(chromium: Any, start: Callable[..., Review]) -> Iterator[Callable[...
             {"name": "prefers-reduced-motion", "value": "reduce"},
         ]
         chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-        chromium.get(f"{review.base}/?token={review.door.keys.session}")
+        chromium.get(f"{review.base}/?token={review.door.key}")
         page = Page(chromium, review)
         page.one("main")
         pages.append(page)
