@@ -375,6 +375,13 @@ def test_a_level_that_is_asked_for_is_told_first_and_read_where_nothing_tells_it
     assert report.counts == {"mission record": 1, "task record": 2, "task unknown object": 1}
 
 
+def test_the_level_is_told_before_what_else_is_wrong(tmp_path: Path) -> None:
+    path = tmp_path / "data.jsonl"
+    write_jsonl(path, [{"output": goes()}])
+    first, second, *_rest = (problem.text for problem in validate_file(path, USV, "task").problems)
+    assert (first, second) == ("a task plan is expected, this is a mission plan", "id is missing")
+
+
 def test_the_same_id_is_told_of_records_and_of_one_system_s_predictions(tmp_path: Path) -> None:
     said = {"id": "a", "output": goes()}
     lines = [record(), record(), said | {"candidate": "x"}, said | {"configuration": "x"}]

@@ -121,6 +121,7 @@ COULD = "The command has a number that could not be read ({}); numbers are not c
         ("vai alla boa", ()),  # Four words are too few to tell.
         ("vai alla boa rossa ora", (MOSTLY,)),
         ("go to the zxq wvb", ()),
+        ("go to the zxq wvb kpf", ()),
         ("go to zxq wvb kpf", (MOSTLY,)),
         ("Überprüfe Ölfaß ab gleich bitte", (MOSTLY,)),
         ("5 7 8 9 a b c", ()),

@@ -124,6 +124,16 @@ def test_a_pass_may_be_two_hundredths_and_half_a_metre_short(run: float, *, shor
     assert bool(found) is short and (not short or "97.4 m apart" in found)
 
 
+def test_a_waypoint_for_clearance_is_none_of_a_pass() -> None:
+    ends = [step("GoToXY", {"x": 5, "y": y}) for y in (0, 200, 97.4)]
+    given = {"side_id": "west", "length": 100, "distance": 5}
+    plan = document([task("ParallelStructurePass", given, [*ends, step("StationKeep")])])
+    assert "not-performed" not in str(plan["warnings"])
+    mark = {"step": 1, "role": "navigation", "name": "GoToXY", "kind": "clearance", "note": ""}
+    plan["tasks"][0]["added"] = [mark]
+    assert "97.4 m apart" in str(revise(plan, USV)["warnings"])
+
+
 @pytest.mark.parametrize(("turns", "named"), [(4, False), (3, False), (2, True)])
 def test_a_panorama_of_four_sectors_needs_three_turns(turns: int, *, named: bool) -> None:
     looks = [step("RotateToHeading", {"heading": 90 * one}) for one in range(turns)]

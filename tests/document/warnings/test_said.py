@@ -272,6 +272,8 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
         ("Circle the mast at 60,60, the radius of 15.", [orbit(360)], ["15"]),
         ("Circle the mast at 60,60, no radius 15.", [orbit(360)], []),
         ("Circle the mast at 60,60, with 15 cameras.", [orbit(360)], []),
+        ("Out to 9,9, give it two.", [to(9, 9)], ["two"]),
+        ("Out to 9,9, give it one.", [to(9, 9)], []),
         ("Map 20x20x5 at 9,9.", [grid(20, 20)], ["5"]),
         ("Map 20 x 20 x 10 at 9,9.", [grid(20, 20)], []),
         (ROUND.format("three full revolutions"), [orbit(360)], ["three full revolutions"]),
