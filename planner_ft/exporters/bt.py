@@ -20,8 +20,7 @@ from planner_ft.exporters.formats import Format, PlanExport, Written
 from planner_ft.exporters.ledger import Path
 
 Element = ElementTree.Element
-Entry = Mapping[str, Any]
-"""A task, a step, a skill or an open place of a plan document."""
+Entry = Mapping[str, Any]  # a task, a step, a skill or an open place of a plan document
 UNTIL_FAILURE = "KeepRunningUntilFailure"
 NO_NOTES = ("title", "task_prompt", "parameters", "waits_for", "skill_sequence")
 """Keys of a task that are more than words in a comment."""

@@ -20,8 +20,7 @@ Path = tuple[str | int, ...]
 ITEMS: dict[str, Any] = tomllib.loads(read_text(FilePath(__file__).with_name("items.toml")))
 """The words of everything that a plan says, by its place; "*" is any key."""
 NO_PLACE = "the format has no place for it"
-MOVEMENT = ("navigation_skill", "name")
-"""The end of the path of a step's movement."""
+MOVEMENT = ("navigation_skill", "name")  # the end of the path of a step's movement
 LISTS = ("stop_conditions", "failure_modes", "expected_outputs")
 
 

@@ -28,10 +28,8 @@ from planner_ft.support.errors import PlannerError
 NAV_WAYPOINT, NAV_LOITER_UNLIM, NAV_LOITER_TIME = 16, 17, 19
 DO_CHANGE_SPEED, NAV_SET_YAW_SPEED = 178, 213
 """MAV_CMD values (https://mavlink.io/en/messages/common.html#mav_commands)."""
-FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3
-"""MAV_FRAME values."""
-SURFACE_BOAT, QUADROTOR = 11, 2
-"""MAV_TYPE values."""
+FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3  # MAV_FRAME values
+SURFACE_BOAT, QUADROTOR = 11, 2  # MAV_TYPE values
 LONGEST_HOLD = 32767
 WIDEST_TURN = 120.0  # degrees that one item turns at most: the vehicle takes the shorter way
 REASONS, BY_MOTION = TABLES["mission"]["reasons"], TABLES["mission"]["motion"]

@@ -38,8 +38,7 @@ LLAMA_3 = (
     r" ?[^\s\p{L}\p{N}]+[\r\n]*|\s*[\r\n]+|\s+(?!\S)|\s+"
 )
 QWEN_2 = LLAMA_3.replace(r"\p{N}{1,3}", r"\p{N}")
-KNOWN = {LLAMA_3: "llama-bpe", QWEN_2: "qwen2"}
-"""Names of llama.cpp's splits by their pattern."""
+KNOWN = {LLAMA_3: "llama-bpe", QWEN_2: "qwen2"}  # names of llama.cpp's splits by their pattern
 LEAST = "superbpe"
 LEAST_PATTERNS = (r"\p{N}+", r"(?=(\d{3})+(?!\d))")
 CONVERTER = "convert it with llama.cpp's convert_hf_to_gguf.py"

@@ -28,10 +28,8 @@ KINDS = {
 }
 """What can fail, with the meaning and the range of its value."""
 EXAMPLE = "such as current=0.3/90, gps@60-120, port=0.5@100 or battery=0.2"
-CORNERS = 48
-"""Corners of a round outline."""
-ARM = 3 / 8
-"""How broad the arms of an L or T are, of the shorter side. ASSUMPTION."""
+CORNERS = 48  # corners of a round outline
+ARM = 3 / 8  # how broad the arms of an L or T are, of the shorter side. ASSUMPTION
 LARGEST = 200.0
 SHAPES = ("", "L", "T")
 

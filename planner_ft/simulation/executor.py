@@ -16,8 +16,7 @@ from planner_ft.simulation.fast import Bools, Runs
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill, implementation_of
 
-RESERVE = 1.3
-"""How much more than the way home takes is kept of time and battery."""
+RESERVE = 1.3  # how much more than the way home takes is kept of time and battery
 Outcome = Literal["running", "done", "returned", "stopped", "collision"]
 
 
@@ -115,8 +114,7 @@ class Executor:
         self.at = np.zeros(scene.count, dtype=int)
         self.outcome: list[Outcome] = ["running"] * scene.count
         self.reason = [""] * scene.count
-        self.ended = np.zeros(scene.count)
-        """Steps that each run took."""
+        self.ended = np.zeros(scene.count)  # steps that each run took
         self.running: dict[int, Running] = {}
 
     @property

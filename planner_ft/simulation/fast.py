@@ -12,8 +12,7 @@ from planner_ft.simulation.vessel import STEP, Vessel
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-Runs = NDArray[np.intp]
-"""Numbers of runs, shape (n,)."""
+Runs = NDArray[np.intp]  # numbers of runs, shape (n,)
 
 
 class Simulator(Protocol):

@@ -12,20 +12,14 @@ from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill
 from planner_ft.simulation.world import PILE, Fence
 
-BUFFER = 4.0
-"""Metres before a margin in which the vehicle slows down and turns away."""
-CLOSING = 0.4
-"""m/s by which it may come nearer, for each metre that is left."""
-ASIDE = math.radians(100)
-"""The bearing at which what is kept away from is held."""
-OVER = 1.0
-"""Metres by which a boundary may be crossed before the filter has failed."""
-SERIOUS = 0.8
-"""Share of a margin below which the filter has failed."""
+BUFFER = 4.0  # metres before a margin in which the vehicle slows down and turns away
+CLOSING = 0.4  # m/s by which it may come nearer, for each metre that is left
+ASIDE = math.radians(100)  # the bearing at which what is kept away from is held
+OVER = 1.0  # metres by which a boundary may be crossed before the filter has failed
+SERIOUS = 0.8  # share of a margin below which the filter has failed
 BAND, LOST_BOW = math.radians(15), math.radians(45)
 """How far the bow may leave a locked heading for steering, and when the heading is lost."""
-PATIENT = 5.0
-"""Seconds for which a failure must hold."""
+PATIENT = 5.0  # seconds for which a failure must hold
 
 
 class Filter(Skill):

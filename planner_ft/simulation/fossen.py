@@ -18,17 +18,12 @@ SUBSTEPS = 5
 WATER, GRAVITY = 1025.0, 9.81
 ADDED = np.array([0.1, 1.5, 1.0, 0.2, 0.8, 1.7])
 """Added mass over mass, and added inertia over inertia (Otter)."""
-GYRATION = np.array([0.4, 0.25, 0.25])
-"""Radii of gyration over beam, length and length (Otter)."""
-WATERPLANE, BLOCK = 0.75, 0.4
-"""Coefficients of the hull (one pontoon of the Otter)."""
-DAMPING = np.array([0.3, 0.2, 0.4])
-"""Relative damping of heave, roll and pitch (Otter)."""
-SWAY, LAG = 1.0, 0.1
-"""Time constants in s of sway and of the thrusters (Otter)."""
+GYRATION = np.array([0.4, 0.25, 0.25])  # radii of gyration over beam, length and length (Otter)
+WATERPLANE, BLOCK = 0.75, 0.4  # coefficients of the hull (one pontoon of the Otter)
+DAMPING = np.array([0.3, 0.2, 0.4])  # relative damping of heave, roll and pitch (Otter)
+SWAY, LAG = 1.0, 0.1  # time constants in s of sway and of the thrusters (Otter)
 STRIPS = 20
-CROSS = 0.56
-"""Cross-flow drag coefficient of a hull that is much wider than deep (Hoerner 1965)."""
+CROSS = 0.56  # cross-flow drag coefficient of a hull that is much wider than deep (Hoerner 1965)
 
 
 class FossenSimulator:

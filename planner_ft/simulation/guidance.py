@@ -17,18 +17,13 @@ from planner_ft.simulation.fast import Bools, Floats, Runs, turned, wrapped
 from planner_ft.simulation.scene import FIX_SIGMA, Pid, Scene
 from planner_ft.simulation.skill import Job, Skill
 
-AHEAD = 4.0
-"""Metres that guidance looks ahead on the path."""
+AHEAD = 4.0  # metres that guidance looks ahead on the path
 NEAR, DETOUR = 3.0, 24
 """Tolerances within which a planned way is joined, and points of a way to it from farther off."""
-SLOW, BRAKE = 0.1, 0.125
-"""m/s at the goal, and m/s^2 at which the vehicle slows down before it."""
-TANGENT = 1.0
-"""Metres of the path that say its direction."""
-STILL = 0.05
-"""m/s or rad/s below which the vehicle rests."""
-HEADING = math.radians(3)
-"""Angular error of a reached heading."""
+SLOW, BRAKE = 0.1, 0.125  # m/s at the goal, and m/s^2 at which the vehicle slows down before it
+TANGENT = 1.0  # metres of the path that say its direction
+STILL = 0.05  # m/s or rad/s below which the vehicle rests
+HEADING = math.radians(3)  # angular error of a reached heading
 
 
 class Steering:
@@ -81,8 +76,7 @@ class Follow(Movement):
         self.planned = [(float(x), float(y)) for x, y in points]
         self.paths = np.tile(np.array([*points, *[points[-1]] * DETOUR]), (scene.count, 1, 1))
         self.leg = np.zeros(scene.count, dtype=int)
-        self.last = np.full(scene.count, len(points) - 2)
-        """The last leg of each run's path."""
+        self.last = np.full(scene.count, len(points) - 2)  # the last leg of each run's path
         self.there = np.zeros(scene.count, dtype=bool)
         self.doubt = float(np.clip(job.tolerance - 3 * FIX_SIGMA, 0, FIX_SIGMA))
         """Metres by which a goal must be nearer than its tolerance, as far as that leaves room."""

@@ -16,8 +16,7 @@ from planner_ft.simulation.navigation import SETTLE
 from planner_ft.simulation.run import SimulationSettings, simulate
 from planner_ft.simulation.staging import PATIENCE, SLACK
 
-FRAME = 0.1
-"""Seconds between two frames at least."""
+FRAME = 0.1  # seconds between two frames at least
 ONE = np.array([0])
 
 

@@ -27,8 +27,7 @@ EVERY = 1.0
 """Seconds between two messages of a topic; odometry, commands and frames come in every step."""
 FLUSH, POSE = 5.0, 1.0
 """Seconds of a run between two writes of its log to the disk, and between two of its poses."""
-CHUNK = 2**14
-"""Bytes of messages that a kill may cost."""
+CHUNK = 2**14  # bytes of messages that a kill may cost
 TOPICS = {
     "/odom": "nav_msgs/Odometry",
     "/fix": "sensor_msgs/NavSatFix",

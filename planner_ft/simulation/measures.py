@@ -59,8 +59,7 @@ class RunResult:
     clearance: float | None
     energy: float
     charge_left: float
-    records: dict[str, int]
-    """Data records by task."""
+    records: dict[str, int]  # data records by task
 
     @property
     def success(self) -> bool:
@@ -99,8 +98,7 @@ class Observer:
         self.fence_violations = np.zeros(count, dtype=int)
         self.clearance_violations = np.zeros(count, dtype=int)
         self.records: list[Counter[str]] = [Counter() for _run in range(count)]
-        self.reached: dict[str, Bools] = {}
-        """Per task the runs that have come to its stand-off."""
+        self.reached: dict[str, Bools] = {}  # per task the runs that have come to its stand-off
         self.last = scene.pose[:, :2].copy()
         start = np.linalg.norm(self.last[:, None] - scene.world.piles[None], axis=-1)
         limits = [one.standoff - one.slack for one in structures]

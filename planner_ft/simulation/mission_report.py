@@ -15,8 +15,7 @@ if TYPE_CHECKING:
 
 FRAME = ("t", "kind", "at", "task", "step", "skill", "skills", "simulated")
 """Keys of a record that say when, where and by what, not what was observed."""
-SHOWN = 6
-"""Different texts of a skill that are shown."""
+SHOWN = 6  # different texts of a skill that are shown
 Line = Mapping[str, Any]
 
 

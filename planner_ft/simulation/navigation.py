@@ -11,16 +11,13 @@ from planner_ft.simulation.guidance import HEADING, STILL, Movement
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job
 
-STEADY = 3.0
-"""Seconds for which a condition must hold."""
+STEADY = 3.0  # seconds for which a condition must hold
 RADIUS, GRACE = 3.0, 20.0
 """Metres of a watch circle that nobody states, and seconds for which it may be left."""
-SETTLE = 10.0
-"""Seconds of a stay that lasts until its perception is done, at least."""
+SETTLE = 10.0  # seconds of a stay that lasts until its perception is done, at least
 ASTERN = (math.radians(65), math.radians(100))
 """Errors of the bow above which a hold goes on astern, and begins to."""
-TILT = 5.0
-"""Degrees of a threshold that nobody states."""
+TILT = 5.0  # degrees of a threshold that nobody states
 
 
 class Hold(Movement):

@@ -36,8 +36,7 @@ CAPTION = (
     " Published figures are quoted from the published study: its own simulator, structures and"
     " starts, so that steps and seconds depend on another distance."
 )
-MOST_TRACKS = 50
-"""Tracks that are drawn: more would cover each other."""
+MOST_TRACKS = 50  # tracks that are drawn: more would cover each other
 SETTINGS = {"svg.hashsalt": "planner_ft", "svg.fonttype": "none", "font.size": 9}
 
 

@@ -111,8 +111,7 @@ class Simulated:
     scene: Scene
     results: list[RunResult]
     tracks: list[list[Point]]
-    log: list[dict[str, Any]]
-    """The log of run 1, without its poses."""
+    log: list[dict[str, Any]]  # the log of run 1, without its poses
 
 
 def simulate(

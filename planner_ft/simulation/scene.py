@@ -14,20 +14,16 @@ from planner_ft.simulation.vessel import Vessel
 from planner_ft.simulation.world import World
 from planner_ft.support.geodesy import Origin
 
-FIX_SIGMA = 0.25
-"""Metres, of a GPS fix along each axis: ASSUMPTION, a receiver with corrections."""
-FIX_EVERY = 1.0
-"""Seconds between two fixes."""
+FIX_SIGMA = 0.25  # metres, of a GPS fix along each axis: ASSUMPTION, a receiver with corrections
+FIX_EVERY = 1.0  # seconds between two fixes
 DRIFT, GUST = 0.05, 1e-5
 """m/s that the water may drift by at the start, and (m/s)^2/s by which that may change: 0.024 m/s
 a minute, three times what a tide of 1 m/s changes by.
 """
 MOORED = 60.0
 """Seconds for which the vehicle has lain at its start with the receiver on: ASSUMPTION."""
-MOST_YAW = 0.7
-"""Share of the thrust that steering may take; going ahead has the rest."""
-LOST = 60.0
-"""Seconds without a fix after which the position counts as lost."""
+MOST_YAW = 0.7  # share of the thrust that steering may take; going ahead has the rest
+LOST = 60.0  # seconds without a fix after which the position counts as lost
 WAVE, PERIOD, HEEL = 1.5, 5.0, 4.0
 """Degrees and seconds of the vehicle's rolling, and degrees of heel per m/s^2 in a turn."""
 
@@ -149,8 +145,7 @@ class Scene:
         self.broken = np.zeros(count, dtype=bool)
         """Runs of which the simulator gave no finite state: they stay where they were."""
         self.actuators = np.zeros((count, 4 if world.vessel.drive == "free" else 2))
-        self.energy = np.zeros(count)
-        """N s: the integral of all thrust."""
+        self.energy = np.zeros(count)  # N s: the integral of all thrust
         self.charge = np.full(count, world.vessel.capacity * world.faults.share("battery", 0))
         """N s that the battery has left, hotel load included."""
         self._phase = world.generator.uniform(0, 2 * np.pi, count)

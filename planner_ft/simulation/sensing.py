@@ -18,12 +18,9 @@ from planner_ft.simulation.scene import FIX_SIGMA, Scene
 from planner_ft.simulation.skill import Job, Skill
 
 Record = dict[str, Any]
-SIGHT, SONAR = 60.0, 15.0
-"""Metres in which camera and sonar detect: ASSUMPTION."""
-WATER, HOT = 12.0, 45.0
-"""Degrees C of the water and of the hottest spot of a structure: ASSUMPTION."""
-VIEW, PIXELS = math.radians(60), 1280
-"""The camera's field of view and width."""
+SIGHT, SONAR = 60.0, 15.0  # metres in which camera and sonar detect: ASSUMPTION
+WATER, HOT = 12.0, 45.0  # degrees C of the water and of the hottest spot of a structure: ASSUMPTION
+VIEW, PIXELS = math.radians(60), 1280  # the camera's field of view and width
 NO_MODEL = {"simulated": "no model"}
 
 

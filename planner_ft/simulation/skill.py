@@ -83,8 +83,7 @@ class Skill:
 
     def __init__(self, job: Job, scene: Scene) -> None:
         self.job, self.scene = job, scene
-        self.begun = np.zeros(scene.count)
-        """When a run began, in s."""
+        self.begun = np.zeros(scene.count)  # when a run began, in s
 
     @classmethod
     def check(cls, job: Job, vessel: Vessel) -> None:

@@ -19,8 +19,7 @@ from planner_ft.simulation.world import PILE
 from planner_ft.support.errors import PlannerError
 
 LEARNT, GUIDANCE, WAYPOINTS = "learnt", "guidance", "waypoints"
-CLEAR = 0.5
-"""Share of a learnt stand-off that filters without a distance of their own keep clear."""
+CLEAR = 0.5  # share of a learnt stand-off that filters without a distance of their own keep clear
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,7 @@ from planner_ft.vocabulary.definition import SIMULATION, Motion
 
 PATIENCE, SLACK = 3.0, 60.0
 """A step may take so many times what it is planned for, and so many seconds more."""
-SQUARE = "square"
-"""The pattern of a task whose stand-off is half the side of a square."""
+SQUARE = "square"  # the pattern of a task whose stand-off is half the side of a square
 
 
 class Staging:

@@ -42,12 +42,10 @@ MISSION_KEYS: dict[str, Kind] = {
     "tolerance": float,
     "starts": [list],
 }
-SHORT = ("success", "waypoint_error", "holding_error", "standoff_error")
-"""Figures for a terminal."""
+SHORT = ("success", "waypoint_error", "holding_error", "standoff_error")  # figures for a terminal
 SUITE, PLAN = "suite.json", "plan.json"
 REASON = "approved by a suite, read by nobody: for simulation alone"
-Ran = dict[tuple[str, str], dict[str, Any]]
-"""results.json by mission and simulator."""
+Ran = dict[tuple[str, str], dict[str, Any]]  # results.json by mission and simulator
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,9 @@ from planner_ft.vocabulary.definition import SIMULATION
 from planner_ft.vocabulary.plans import is_number
 
 DRIVES = ("differential", "free")
-STEP = 0.2
-"""Seconds of one step (published)."""
-TOLERANCE = 1.0
-"""Metres within which a position is reached (published; 2 m in the field)."""
-FASTER = 1.5
-"""Top speed over cruise speed, where the file says none."""
+STEP = 0.2  # seconds of one step (published)
+TOLERANCE = 1.0  # metres within which a position is reached (published; 2 m in the field)
+FASTER = 1.5  # top speed over cruise speed, where the file says none
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,8 @@ from planner_ft.simulation.fast import Floats, Runs
 from planner_ft.simulation.vessel import Vessel
 from planner_ft.support.errors import PlannerError
 
-PILE = 0.5
-"""Metres: radius of a structure, which a plan knows as a point. ASSUMPTION."""
-CURRENT = (0.02, 0.08)
-"""m/s, drawn for each run with a direction (published)."""
+PILE = 0.5  # metres: radius of a structure, which a plan knows as a point. ASSUMPTION
+CURRENT = (0.02, 0.08)  # m/s, drawn for each run with a direction (published)
 DEPTH, SLOPE, WAVES = 12.0, 0.02, ((1.5, 45.0), (0.6, 17.0))
 """The seabed: metres below [0, 0], gradient along a drawn bearing, (height, length) of swells."""
 

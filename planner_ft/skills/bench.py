@@ -94,8 +94,7 @@ def bench_skill(request: SkillBench, report: Report) -> list[Table]:
     return tables
 
 
-Played = dict[str, dict[str, list[Episode]]]
-"""Episodes by policy or baseline, and by condition."""
+Played = dict[str, dict[str, list[Episode]]]  # episodes by policy or baseline, and by condition
 
 
 def _play_all(request: SkillBench, policies: Sequence[Policy], report: Report) -> Played:

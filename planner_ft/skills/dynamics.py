@@ -18,12 +18,9 @@ from planner_ft.simulation.vessel import STEP, Vessel, build_vessel
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 
-CURRENT = (0.02, 0.08)
-"""m/s (published)."""
-TURN = 0.43
-"""rad/s (published); the profile of a plan may allow less."""
-LEAK = 0.1
-"""Share of the gradient that passes a limit, so that saturated thrusters still learn."""
+CURRENT = (0.02, 0.08)  # m/s (published)
+TURN = 0.43  # rad/s (published); the profile of a plan may allow less
+LEAK = 0.1  # share of the gradient that passes a limit, so that saturated thrusters still learn
 
 
 def published_vessel() -> Vessel:

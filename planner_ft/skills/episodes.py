@@ -19,8 +19,7 @@ from planner_ft.skills.survey import Survey, Task, action_of
 from planner_ft.skills.tracker import Tracker
 
 Actor = Callable[[Survey], Tensor]
-LOOK = 2.5
-"""Metres ahead on the way to which a waypoint is named."""
+LOOK = 2.5  # metres ahead on the way to which a waypoint is named
 PUSHES = 3
 
 

@@ -11,13 +11,11 @@ from planner_ft.skills.dynamics import turned
 
 RAYS, REACH = 64, 10.0
 """LiDAR rays over 360 degrees counter-clockwise from the bow, and their range in m (published)."""
-TOUCH = 0.25 + 0.02
-"""Metres between a boundary point and the hull at which they touch (published)."""
+TOUCH = 0.25 + 0.02  # metres between a boundary point and the hull at which they touch (published)
 HULL = ((-1.5, -0.7), (0.5, -0.7), (1.5, 0.0), (0.5, 0.7), (-1.5, 0.7))
 """Flat stern and tapered bow, counter-clockwise, in m; where the taper begins is assumed."""
 HULL_RADIUS = math.hypot(1.5, 0.7)
-CHUNK = 32
-"""Vehicles whose rays are cast at once, so that they fit a processor's cache."""
+CHUNK = 32  # vehicles whose rays are cast at once, so that they fit a processor's cache
 
 
 def ray_angles() -> Tensor:

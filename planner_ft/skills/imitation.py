@@ -47,10 +47,8 @@ class Settings:
     rate: float = 1e-3
     noise: float = 0.3
     """Spread of what is added to actions, so that the teacher is asked beside its way."""
-    lost: float = 0.1
-    """Share of the rays that a scan loses at most."""
-    teacher: int = 8
-    """Iterations that the teacher drives."""
+    lost: float = 0.1  # share of the rays that a scan loses at most
+    teacher: int = 8  # iterations that the teacher drives
     rounding: float = 1.5
     """Metres: the margin in hollows of an outline, by the curvature that the vehicle can turn."""
 

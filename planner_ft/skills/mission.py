@@ -26,12 +26,9 @@ from planner_ft.support.errors import PlannerError
 
 SURE = 0.3
 """Metres from a goal at which a way ends, if the vehicle has not begun to leave it before."""
-FLOW = 0.03
-"""m/s of a measured drift below which it says no direction."""
-STANDOFF = (3.0, 8.0)
-"""Metres of a stand-off for which the survey was measured."""
-BLIND = 20.0
-"""Seconds without any return after which a structure counts as lost."""
+FLOW = 0.03  # m/s of a measured drift below which it says no direction
+STANDOFF = (3.0, 8.0)  # metres of a stand-off for which the survey was measured
+BLIND = 20.0  # seconds without any return after which a structure counts as lost
 
 
 def policy_of(job: Job, skill: str) -> Policy:

@@ -13,10 +13,8 @@ from planner_ft.skills.dynamics import Dynamics
 from planner_ft.skills.shapes import POINTS
 from planner_ft.skills.tracker import Tracker, aimed
 
-ARRIVED = 0.25
-"""Metres within which an option's waypoint is reached (published)."""
-BAND = 0.5
-"""Metres about the stand-off in which a waypoint is rewarded (published)."""
+ARRIVED = 0.25  # metres within which an option's waypoint is reached (published)
+BAND = 0.5  # metres about the stand-off in which a waypoint is rewarded (published)
 
 
 class Before(NamedTuple):

@@ -45,8 +45,7 @@ HOW = {
     "survey": "64 LiDAR ranges and four numbers become the next waypoint of GoToXY",
 }
 """What a policy maps to what, for its card."""
-EVERY = 20
-"""Iterations between two checkpoints."""
+EVERY = 20  # iterations between two checkpoints
 
 
 @dataclass(frozen=True)

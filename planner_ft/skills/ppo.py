@@ -23,8 +23,7 @@ from planner_ft.skills.surveyor import Surveyor
 from planner_ft.skills.tracker import Tracker
 from planner_ft.support.terminal import Report
 
-L3 = (1 / 7, 1 / 7, 3 / 7, 1 / 7, 1 / 7)
-"""The published oversampling: the L in 3 of 7 draws."""
+L3 = (1 / 7, 1 / 7, 3 / 7, 1 / 7, 1 / 7)  # the published oversampling: the L in 3 of 7 draws
 
 
 @dataclass(frozen=True)
@@ -43,8 +42,7 @@ class Settings:
     lmbda: float = 0.9
     rate: float = 3e-4
     norm: float = 1.0
-    patience: int = 20
-    """Iterations without a better mean reward after which training ends."""
+    patience: int = 20  # iterations without a better mean reward after which training ends
     sampling: str = "uniform"
     without: str | None = None
 

@@ -25,18 +25,15 @@ from planner_ft.skills.option import Before, Compiled, Way, advance, judge
 from planner_ft.skills.shapes import POINTS, RADIUS, draw_outline, offset_path
 from planner_ft.skills.tracker import Tracker
 
-OPTION = 15
-"""Time steps of an option at most (published)."""
+OPTION = 15  # time steps of an option at most (published)
 AHEAD, ASIDE = (0.5, 4.0), 3.0
 """Chosen: metres of a waypoint ahead (w_min, w_max) and to either side (w_y,max)."""
 LONGEST = 150
 """Chosen: options of an episode at most. Its end, as that of a lap, cuts an episode off: what would
 have followed counts, or learners that are paid while they go round would put off coming round.
 """
-CLEAR = geometry.HULL_RADIUS + geometry.TOUCH
-"""Chosen: metres from all of the outline at the start."""
-WAY = 256
-"""Points of the way at the stand-off that a teacher knows."""
+CLEAR = geometry.HULL_RADIUS + geometry.TOUCH  # chosen: metres from all of the outline at the start
+WAY = 256  # points of the way at the stand-off that a teacher knows
 NUMBERS = geometry.RAYS + 4
 NAMES = ("collision", "success", "lost", "late")
 Cast = Callable[[Tensor, Tensor], Tensor]

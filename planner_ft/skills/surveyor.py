@@ -13,8 +13,7 @@ from planner_ft.skills.survey import NUMBERS, Survey
 
 WIDTH, DEPTH = 128, 3
 SIGMA_MIN = 1e-3
-SCANS = 8
-"""Past scans that the memory keeps."""
+SCANS = 8  # past scans that the memory keeps
 
 
 def layers(inputs: int, outputs: int, activation: type[nn.Module] = nn.Tanh) -> nn.Sequential:

@@ -11,10 +11,8 @@ from planner_ft.simulation.guidance import BRAKE, SLOW
 from planner_ft.skills.dynamics import turned, wrapped
 
 HIDDEN = 64
-FAR, NEAR = 10.0, 0.3
-"""Metres at which a position is clipped, and that tell near goals apart."""
-CLOSE = 1.5
-"""Metres within which the way to a goal says no heading any more."""
+FAR, NEAR = 10.0, 0.3  # metres at which a position is clipped, and that tell near goals apart
+CLOSE = 1.5  # metres within which the way to a goal says no heading any more
 
 
 def relative(state: Tensor, goal: Tensor) -> Tensor:

@@ -31,13 +31,11 @@ class Settings:
     iterations: int = 160
     batch: int = 192
     steps: int = 120
-    window: int = 60
-    """Time steps through which gradients flow."""
+    window: int = 60  # time steps through which gradients flow
     rate: float = 3e-3
     norm: float = 1.0
     current: float = 0.2
-    noise: float = 0.05
-    """Metres by which the believed position is off, slowly changing."""
+    noise: float = 0.05  # metres by which the believed position is off, slowly changing
 
 
 HOLD = {"skill": "hold", "iterations": 300, "noise": 0.1}

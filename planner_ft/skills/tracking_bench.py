@@ -26,10 +26,8 @@ if TYPE_CHECKING:
     from planner_ft.skills.bench import SkillBench
 
 CURRENTS = {"published current": 1.0, "twice the published current": 2.0}
-AWAY = (5.0, 30.0)
-"""Metres from a goal at the start."""
-SECONDS, PATIENCE = 60.0, 120.0
-"""How long a place is held, and how long a way may take."""
+AWAY = (5.0, 30.0)  # metres from a goal at the start
+SECONDS, PATIENCE = 60.0, 120.0  # how long a place is held, and how long a way may take
 COLUMNS = {
     "goto": ("arrived % ↑", "waypoint m ↓", "seconds ↓"),
     "hold": ("stayed % ↑", "holding m ↓", "after 20 s, m ↓"),
