@@ -20,9 +20,8 @@ def simulate(o: Options) -> None:
         _suite(o)
         return
     from planner_ft.planning.locations import parse_locations
-    from planner_ft.simulation.asked import read_faults, read_outlines
+    from planner_ft.simulation.asked import SimulationSettings, read_faults, read_outlines
     from planner_ft.simulation.output import outcome_lines, table
-    from planner_ft.simulation.run import SimulationSettings
     from planner_ft.simulation.run import simulate as run
 
     settings = o.into(

@@ -3,8 +3,7 @@
 Every movement is a behaviour that runs while MISSION_STEP holds its number, and sets the next when
 it is complete. Boundaries and clearances are behaviours beside them. Skills that no behaviour does
 are posted as SKILL_ variables for apps of the vehicle, and words stand in comments.
-docs/exporters.md says how it is used; the sources of the syntax are named in moos_text and
-moos_behaviours.
+docs/exporters.md says how it is used; the sources of the syntax are named in moos_behaviours.
 """
 
 from __future__ import annotations
@@ -14,8 +13,18 @@ from typing import Any
 
 from planner_ft.exporters.formats import Action, Format, PlanExport, Written
 from planner_ft.exporters.ledger import LISTS
-from planner_ft.exporters.moos_behaviours import STEP, TABLE, Move, guard_form, guards, move_of
-from planner_ft.exporters.moos_text import block, comment, quoted, variable
+from planner_ft.exporters.moos_behaviours import (
+    STEP,
+    TABLE,
+    Move,
+    block,
+    comment,
+    guard_form,
+    guards,
+    move_of,
+    quoted,
+    variable,
+)
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.plans import step_skills
 

@@ -104,22 +104,32 @@ def _formats(settings: PlanExportSettings) -> list[Format]:
 
 
 def _plan(settings: PlanExportSettings) -> PlanExport:
-    vocabulary = load_vocabulary(settings.vocabulary) if settings.vocabulary else None
-    document = read_document(settings.plan, vocabulary)
-    approval = approval_of(document, settings.log or log_beside(settings.plan))
-    approved = approval.status == "approved"
-    if not approved and not settings.draft:
-        way = f"approve it with `plannerft review {settings.plan}`"
-        draft = f"give --draft for a file that is marked {DRAFT}"
-        raise PlannerError(f"{settings.plan}: {approval.text}; {way}, or {draft}")
-    vocabulary = vocabulary or load_vocabulary(document["vocabulary"]["name"])
-    words = f"{approval.text}; digest {approval.digest}" if approved else None
-    planned = origin_of(document)
+    plan = read_plan(settings, f"a file that is marked {DRAFT}")
+    planned = origin_of(plan.document)
     if planned and settings.origin not in (None, planned):
         problem = f"the plan was made with {planned.latitude:g},{planned.longitude:g} ({planned})"
         given = f"{settings.origin.latitude:g},{settings.origin.longitude:g}"
         raise PlannerError(f"--origin {given}: {problem}; leave it out, or plan anew")
-    return PlanExport(document, vocabulary, settings.origin or planned, words)
+    return plan
+
+
+def read_plan(asked: Any, marked: str, *, altered: bool = True) -> PlanExport:
+    """The approved plan of settings with `plan`, `log`, `vocabulary`, `origin` and `draft`, which
+    also takes others, `altered` ones too, for what is `marked`. Raises PlannerError.
+    """
+    vocabulary = load_vocabulary(asked.vocabulary) if asked.vocabulary else None
+    document = read_document(asked.plan, vocabulary)
+    approval = approval_of(document, asked.log or log_beside(asked.plan))
+    if approval.status == "altered" and not altered:
+        hint = "look at it and approve it again with `plannerft review`"
+        raise PlannerError(f"{asked.plan}: {approval.text}; {hint}")
+    approved = approval.status == "approved"
+    if not approved and not asked.draft:
+        ways = f"approve it with `plannerft review {asked.plan}`, or give --draft for {marked}"
+        raise PlannerError(f"{asked.plan}: {approval.text}; {ways}")
+    vocabulary = vocabulary or load_vocabulary(document["vocabulary"]["name"])
+    words = f"{approval.text}; digest {approval.digest}" if approved else None
+    return PlanExport(document, vocabulary, asked.origin or origin_of(document), words)
 
 
 def _file(settings: PlanExportSettings, chosen: Format, *, draft: bool) -> Path:

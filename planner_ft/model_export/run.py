@@ -13,6 +13,7 @@ from planner_ft.candidates.loading import load_tokenizer, require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import model_metadata
 from planner_ft.model_export import check as checks
+from planner_ft.model_export.check import load_full, merged, save_full
 from planner_ft.model_export.gguf_file import (
     OutType,
     check_architecture,
@@ -21,7 +22,6 @@ from planner_ft.model_export.gguf_file import (
     token_table,
     write_gguf,
 )
-from planner_ft.model_export.merge import load_full, merged, save_full
 from planner_ft.prompts.text import prompt_messages
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError

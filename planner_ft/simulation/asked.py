@@ -1,4 +1,4 @@
-"""What a simulation is asked for beside its plan: faults, `--fault KIND[=VALUE][/BEARING]
+"""What a simulation is asked for: its settings, faults, `--fault KIND[=VALUE][/BEARING]
 [@START[-END]]`, and outlines of structures, `--outline NAME=SHAPE`, for runs that see more than a
 pile.
 
@@ -10,12 +10,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
-from planner_ft.simulation.fast import Floats
+from planner_ft.document.track import Point
+from planner_ft.simulation.fast import SIMULATORS, TOLERANCE, Floats
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.geodesy import Origin
 
 KINDS = {
     "current": ("m/s, added to the drawn one; /BEARING: where it sets", 0.0, 5.0),
@@ -32,6 +35,8 @@ CORNERS = 48  # corners of a round outline
 ARM = 3 / 8  # how broad the arms of an L or T are, of the shorter side. ASSUMPTION
 LARGEST = 200.0
 SHAPES = ("", "L", "T")
+MOST_RUNS = 500
+LEARNT, GUIDANCE, WAYPOINTS = "learnt", "guidance", "waypoints"
 
 
 @dataclass(frozen=True)
@@ -105,11 +110,6 @@ def read_outlines(texts: Sequence[str]) -> dict[str, Floats]:
     return found
 
 
-def reach(outline: Floats) -> float:
-    """How far an outline reaches from its centre, in m."""
-    return float(np.linalg.norm(outline, axis=1).max())
-
-
 def _corners(shape: str) -> Floats | None:
     kind = shape[:1] if shape[:1] in SHAPES else ""
     try:
@@ -133,3 +133,58 @@ def _corners(shape: str) -> Floats | None:
         ],
     }
     return np.array(forms[kind], dtype=float)
+
+
+@dataclass(frozen=True)
+class SimulationSettings:
+    """What is simulated. `locations` say where objects truly stand, `starts` where runs begin in
+    turn (home without any); `mcap` is the number of runs with a ROS 2 log. `goto` is guidance,
+    learnt, or the folder of a policy, `survey` waypoints, learnt, or the folder of a policy;
+    `outlines` are corners (n, 2) about their places of structures by name.
+    """
+
+    plan: Path
+    out: Path | None = None
+    runs: int = 20
+    seed: int = 0
+    simulator: str = "fast"
+    tolerance: float = TOLERANCE
+    locations: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    starts: tuple[Point, ...] = ()
+    faults: Faults = field(default_factory=Faults)
+    origin: Origin | None = None
+    mcap: int = 1
+    log: Path | None = None
+    draft: bool = False
+    vocabulary: str | None = None
+    overwrite: bool = False
+    goto: str = GUIDANCE
+    survey: str = WAYPOINTS
+    outlines: Mapping[str, Floats] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError for numbers out of range and what there is not."""
+        if not 1 <= self.runs <= MOST_RUNS:
+            raise PlannerError(f"--runs {self.runs}: must be from 1 to {MOST_RUNS}")
+        if not 0 < self.tolerance <= 100:
+            raise PlannerError(f"--tolerance {self.tolerance:g}: must be above 0 m, at most 100")
+        if not 0 <= self.mcap <= self.runs:
+            raise PlannerError(f"--mcap {self.mcap}: must be from 0 to the {self.runs} runs")
+        if self.simulator not in SIMULATORS:
+            known = ", ".join(SIMULATORS)
+            raise PlannerError(f"--simulator {self.simulator}: must be one of {known}")
+        for flag, value, usual, _table in self.slots:
+            if value not in (usual, LEARNT) and not Path(value).is_dir():
+                words = f"{usual}, {LEARNT}, or the folder of a trained policy"
+                raise PlannerError(f"{flag} {value}: must be {words}")
+
+    @property
+    def slots(self) -> tuple[tuple[str, str, str, str], ...]:
+        """The flag, value and usual value of each slot, and the table of what is learnt."""
+        goto = "--goto", self.goto, GUIDANCE, "skill"
+        return goto, ("--survey", self.survey, WAYPOINTS, "task")
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the results: by default the plan's name with ".simulation"."""
+        return self.out or self.plan.with_suffix(".simulation")

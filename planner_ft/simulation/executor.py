@@ -6,15 +6,18 @@ time. When its end condition holds, the others are switched off and the next ste
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from planner_ft.simulation.fast import Bools, Runs
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.skill import Job, Skill, implementation_of
+from planner_ft.simulation.skill import Job, implementation_of
+
+if TYPE_CHECKING:
+    from planner_ft.simulation.measures import Observer
 
 RESERVE = 1.3  # how much more than the way home takes is kept of time and battery
 Outcome = Literal["running", "done", "returned", "stopped", "collision"]
@@ -32,21 +35,21 @@ class Stage:
     patience: float
     failures: tuple[str, ...]
 
+    @property
+    def jobs(self) -> tuple[Job, ...]:
+        """All skills, the movement first."""
+        return self.movement, *self.filters, *self.sensors
+
 
 class Running:
     """The skills of a stage, made when the first run comes to it."""
 
     def __init__(self, stage: Stage, scene: Scene) -> None:
         self.stage = stage
-        self.movement = implementation_of(stage.movement)(stage.movement, scene)
-        self.filters = [implementation_of(job)(job, scene) for job in stage.filters]
-        self.sensors = [implementation_of(job)(job, scene) for job in stage.sensors]
+        self.skills = [implementation_of(job)(job, scene) for job in stage.jobs]
+        self.movement, self.sensors = self.skills[0], self.skills[1 + len(stage.filters) :]
         self.wrong: dict[int, str] = {}
         """The runs in which a skill, such as a learnt policy, gave no finite command."""
-
-    @property
-    def skills(self) -> list[Skill]:
-        return [self.movement, *self.filters, *self.sensors]
 
     def start(self, runs: Runs) -> None:
         for skill in self.skills:
@@ -73,8 +76,8 @@ class Running:
 
     def failures(self, runs: Runs) -> dict[int, tuple[str, str]]:
         """(failure mode, sentence) of the runs in which a skill has failed or the step is late."""
-        text = "its command is not finite"
-        found = {run: ("", f"{name}: {text}") for run, name in self.wrong.items() if run in runs}
+        wrong = {run: name for run, name in self.wrong.items() if run in runs}
+        found = {run: ("", f"{name}: its command is not finite") for run, name in wrong.items()}
         for skill in self.skills:
             for run in runs[skill.failed(runs)]:
                 found.setdefault(int(run), (skill.job.failure, skill.why))
@@ -94,23 +97,15 @@ class Running:
 
 class Executor:
     """Carries out stages for all runs of a scene; the last stage is the way home, to which only a
-    failure leads.
-
-    `finished` is called with (stage, its skills, runs) when runs end a stage by its end condition,
-    `observed` after each time step with what ran, and which runs are active.
+    failure leads. The observer is told when runs end a stage by its end condition, and after each
+    time step what ran.
     """
 
     def __init__(
-        self,
-        stages: Sequence[Stage],
-        home: Stage,
-        scene: Scene,
-        finished: Callable[[Stage, Skill, Runs], None],
-        observed: Callable[[list[tuple[Running, Runs]], Bools], None],
-        most: float,
+        self, stages: Sequence[Stage], home: Stage, scene: Scene, observer: Observer, most: float
     ) -> None:
         self.stages, self.scene, self.most = [*stages, home], scene, most
-        self.finished, self.observed = finished, observed
+        self.observer = observer
         self.at = np.zeros(scene.count, dtype=int)
         self.outcome: list[Outcome] = ["running"] * scene.count
         self.reason = [""] * scene.count
@@ -134,15 +129,14 @@ class Executor:
         for at, runs in groups.items():
             self.running[at].step(runs, self.scene)
         self.scene.advance(active)
-        self.observed([(self.running[at], runs) for at, runs in groups.items()], active)
+        self.observer.observed([(self.running[at], runs) for at, runs in groups.items()], active)
         for at, runs in groups.items():
             self._judge(at, runs)
         return True
 
     def abort(self, runs: Runs, reason: str = "aborted") -> None:
         """Stop runs at once."""
-        for run in runs:
-            self._end(int(run), "stopped", reason)
+        self._end(runs, "stopped", reason)
 
     def _judge(self, at: int, runs: Runs) -> None:
         """End what is over: steps, and runs that cannot go on."""
@@ -155,8 +149,7 @@ class Executor:
             (scene.charge[runs] <= 0, "stopped", "the battery is empty"),
         ]
         for which, outcome, reason in ends:
-            for run in runs[which]:
-                self._end(int(run), outcome, reason)
+            self._end(runs[which], outcome, reason)
         runs = runs[self.active[runs]]
         failures, done = running.failures(runs), running.done(runs)
         short = {} if returning else self._short(runs)
@@ -165,19 +158,16 @@ class Executor:
                 self._fail(run, at, *failures[run])
             elif run in short and not is_done:
                 self._home(run, at, short[run])
-        here = (self.at[runs] == at) & self.active[runs]
-        still = runs[here]
-        over = still[done[here]]
+        over = runs[(self.at[runs] == at) & self.active[runs] & done]
         if not len(over):
             return
         running.stop(over)
-        self.finished(stage, running.movement, over)
+        self.observer.finished(running.movement, over)
         if returning:
             for run in over:
-                self._end(int(run), "returned", self.reason[run])
+                self._end([run], "returned", self.reason[run])
         elif at + 2 == len(self.stages):
-            for run in over:
-                self._end(int(run), "done", "")
+            self._end(over, "done", "")
         else:
             self._enter(over, at + 1)
 
@@ -204,17 +194,14 @@ class Executor:
             return
         else:
             end = f"{reason}; no failure mode of the step says more"
-        self._leave(run, at)
-        self._end(run, "stopped", end)
+        self.running[at].stop(np.array([run]))
+        self._end([run], "stopped", end)
 
     def _home(self, run: int, at: int, reason: str) -> None:
-        self._leave(run, at)
+        self.running[at].stop(np.array([run]))
         self.reason[run] = reason
         self.scene.note(run, "event", {"text": f"returns home: {reason}"})
         self._enter(np.array([run]), len(self.stages) - 1)
-
-    def _leave(self, run: int, at: int) -> None:
-        self.running[at].stop(np.array([run]))
 
     def _enter(self, runs: Runs, at: int) -> None:
         if at not in self.running:
@@ -222,16 +209,15 @@ class Executor:
         self.at[runs] = at
         self.running[at].start(runs)
         stage = self.stages[at]
-        skills = [job.skill for job in (stage.movement, *stage.filters, *stage.sensors)]
+        skills = [job.skill for job in stage.jobs]
         for run in runs:
             where = {"task": stage.task, "step": stage.step + 1, "skills": skills}
             self.scene.note(int(run), "step", where)
 
-    def _end(self, run: int, outcome: Outcome, reason: str) -> None:
-        if self.outcome[run] != "running":
-            return
-        self.outcome[run], self.reason[run] = outcome, reason
-        self.ended[run] = self.scene.steps
-        self.scene.idle[run] = True
+    def _end(self, runs: Iterable[int], outcome: Outcome, reason: str) -> None:
         text = outcome + (f": {reason}" if reason else "")
-        self.scene.note(run, "end", {"text": text})
+        for run in map(int, runs):
+            if self.outcome[run] == "running":
+                self.outcome[run], self.reason[run] = outcome, reason
+                self.ended[run], self.scene.idle[run] = self.scene.steps, True
+                self.scene.note(run, "end", {"text": text})

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from planner_ft.simulation.fast import Floats
-from planner_ft.simulation.vessel import STEP, Vessel
+from planner_ft.simulation.fast import STEP, Floats, Vessel
 from planner_ft.support.errors import PlannerError
 
 SUBSTEPS = 5
@@ -64,9 +63,8 @@ class FossenSimulator:
         for _substep in range(SUBSTEPS):
             self.thrust += dt / LAG * (actuators - self.thrust)
             turn, velocity = self._rotations(), self.data.qvel.reshape(-1, 6)
-            force = self.hull.forces(
-                self.data.qpos.reshape(-1, 7)[:, 2], turn, velocity, self.thrust, current, wind
-            )
+            heave = self.data.qpos.reshape(-1, 7)[:, 2]
+            force = self.hull.forces(heave, turn, velocity, self.thrust, current, wind)
             self.broken |= ~np.isfinite(force).all(axis=1)
             force[self.broken], velocity[self.broken] = 0.0, 0.0
             self.data.qfrc_applied[:] = force.ravel()
@@ -139,7 +137,8 @@ class _Hull:
         force = self._driving(thrust) + self._air(turn, velocity, wind)
         force -= self.damping * through + self._cross_flow(through)
         force[:, 0] -= self.square * np.abs(through[:, 0]) * through[:, 0]
-        force[:, :3] -= np.cross(spin, momentum[:, :3]) + self._afloat(heave, turn)
+        afloat = self.restoring[0] * heave[:, None] * turn[:, 2]  # weight less buoyancy
+        force[:, :3] -= np.cross(spin, momentum[:, :3]) + afloat
         munk = np.cross(through[:, :3], momentum[:, :3])
         # As for the Otter: a yaw moment that nonlinear damping would have to balance.
         munk[:, 2] = 0.0
@@ -147,9 +146,8 @@ class _Hull:
         force[:, 3] -= self.restoring[1] * turn[:, 2, 1]
         force[:, 4] += self.restoring[2] * turn[:, 2, 0]
         force[:, :3] -= self.added[:3] * np.cross(spin, flow)
-        centripetal = np.column_stack(
-            [self.rigid[0] * np.cross(spin, speed), np.cross(spin, self.inertia * spin)]
-        )
+        carried = self.rigid[0] * np.cross(spin, speed), np.cross(spin, self.inertia * spin)
+        centripetal = np.column_stack(carried)
         applied = self.rigid / (self.rigid + self.added) * (force - centripetal) + centripetal
         return np.column_stack([np.einsum("nij,nj->ni", turn, applied[:, :3]), applied[:, 3:]])
 
@@ -176,16 +174,10 @@ class _Hull:
         force[:, 1], force[:, 5] = drag.sum(axis=1), drag @ self.strips
         return force
 
-    def _afloat(self, heave: Floats, turn: Floats) -> Floats:
-        """Weight less buoyancy in the body's axes (B, 3): none at the waterline."""
-        return np.asarray(self.restoring[0] * heave[:, None] * turn[:, 2])
-
 
 def _model(hull: _Hull, runs: int) -> str:
     inertia = " ".join(f"{value:.6g}" for value in hull.inertia)
-    body = (
-        f'<body><freejoint/><inertial pos="0 0 0" mass="{hull.own.mass:.6g}"'
-        f' diaginertia="{inertia}"/></body>'
-    )
+    inertial = f'<inertial pos="0 0 0" mass="{hull.own.mass:.6g}" diaginertia="{inertia}"/>'
+    body = f"<body><freejoint/>{inertial}</body>"
     option = f'<option timestep="{STEP / SUBSTEPS}" gravity="0 0 0"/>'
     return f"<mujoco>{option}<worldbody>{body * runs}</worldbody></mujoco>"

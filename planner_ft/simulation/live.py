@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from planner_ft.review.web.run import Frame, Stop
+from planner_ft.simulation.asked import SimulationSettings
 from planner_ft.simulation.executor import Executor, Stage
-from planner_ft.simulation.navigation import SETTLE
-from planner_ft.simulation.run import SimulationSettings, simulate
+from planner_ft.simulation.guidance import SETTLE
+from planner_ft.simulation.run import simulate
 from planner_ft.simulation.staging import PATIENCE, SLACK
 
 FRAME = 0.1  # seconds between two frames at least
@@ -33,14 +34,9 @@ def run_live(
 
     `tell` gets its frames; once `stop` is set it is aborted before its next step.
     """
-    settings = SimulationSettings(
-        plan,
-        folder,
-        runs=1,
-        mcap=int(importlib.util.find_spec("mcap_ros2") is not None),
-        log=log,
-        vocabulary=vocabulary,
-    )
+    mcap = int(importlib.util.find_spec("mcap_ros2") is not None)
+    how: dict[str, Any] = {"log": log, "vocabulary": vocabulary}
+    settings = SimulationSettings(plan, folder, runs=1, mcap=mcap, **how)
     (result,) = simulate(settings, watch=_Watch(speed, tell, stop)).results
     return {"outcome": result.outcome, "reason": result.reason, "seconds": result.seconds}
 
@@ -79,7 +75,7 @@ def frame_of(executor: Executor) -> Frame:
         "pose": [x, y, yaw],
         "task": stage.task,
         "step": stage.step,
-        "skills": [job.skill for job in (stage.movement, *stage.filters, *stage.sensors)],
+        "skills": [job.skill for job in stage.jobs],
         "left": round(left),
         "over": not executor.active[0],
     }

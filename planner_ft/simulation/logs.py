@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import math
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -21,7 +20,7 @@ from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.measures import Observer
 from planner_ft.simulation.scene import FIX_SIGMA, Scene
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, read_toml
 
 EVERY = 1.0
 """Seconds between two messages of a topic; odometry, commands and frames come in every step."""
@@ -48,12 +47,11 @@ class RunLogs:
         self, folder: Path, runs: int, mcap: int, faults: Faults, stack: contextlib.ExitStack
     ) -> None:
         self.folder, self.mcap, self.faults, self.stack = folder, mcap, faults, stack
-        self.files: list[IO[str]] = []
         self.first: list[dict[str, Any]] = []
         self.tracks: list[list[Point]] = [[] for _run in range(runs)]
+        self.files: list[IO[str]] = []
         for run in range(runs):
-            path = folder / f"{name_of(run)}.jsonl"
-            stream = open(path, "w", encoding="utf-8")  # noqa: SIM115
+            stream = open(folder / f"{name_of(run)}.jsonl", "w", encoding="utf-8")  # noqa: SIM115
             self.files.append(stack.enter_context(stream))
         self.ros: list[RosLog] = []
 
@@ -123,23 +121,15 @@ class RosLog:
     def step(self) -> None:
         """The messages of this time step."""
         scene, run = self.scene, self.run
-        x, y, z, yaw = (float(one) for one in scene.pose[run])
-        surge, sway, climb, rate = (float(one) for one in scene.twist[run])
-        twist = _twist(surge, sway, climb, rate)
+        pose, twist = _pose(*scene.pose[run]), _twist(*scene.twist[run])
         held: Message = {"covariance": [0.0] * 36}
-        odometry = {
-            "pose": {"pose": _pose(x, y, z, yaw), **held},
-            "twist": {"twist": twist, **held},
-        }
+        odometry = {"pose": {"pose": pose, **held}, "twist": {"twist": twist, **held}}
         head = {"header": self._header("odom"), "child_frame_id": "base_link"}
         self.write("/odom", {**head, **odometry})
-        wanted = _twist(*(float(one) for one in scene.command[run]))
+        wanted = _twist(*scene.command[run])
         self.write("/cmd_vel", {"header": self._header("base_link"), "twist": wanted})
-        frames = [
-            self._frame("map", "odom", 0, 0, 0, 0),
-            self._frame("odom", "base_link", x, y, z, yaw),
-        ]
-        self.write("/tf", {"transforms": frames})
+        odom = self._frame("map", "odom", _pose(0.0, 0.0, 0.0, 0.0))
+        self.write("/tf", {"transforms": [odom, self._frame("odom", "base_link", pose)]})
         if scene.steps % round(EVERY / scene.seconds) == 0:
             self.write("/fix", self._fix())
             if scene.vessel.rays:
@@ -160,8 +150,7 @@ class RosLog:
         stamp = {"sec": nanoseconds // 10**9, "nanosec": nanoseconds % 10**9}
         return {"stamp": stamp, "frame_id": frame}
 
-    def _frame(self, parent: str, child: str, x: float, y: float, z: float, yaw: float) -> Message:
-        pose = _pose(x, y, z, yaw)
+    def _frame(self, parent: str, child: str, pose: Message) -> Message:
         moved = {"translation": pose["position"], "rotation": pose["orientation"]}
         return {"header": self._header(parent), "child_frame_id": child, "transform": moved}
 
@@ -197,11 +186,9 @@ class RosLog:
 
 def definition(name: str) -> str:
     """The definition of a message with those that it is made of, as MCAP wants it."""
-    known = tomllib.loads(Path(__file__).with_name("messages.toml").read_text("utf-8"))
-    parts = [known[name].strip()]
-    for used in dict.fromkeys(_used(name, known)):
-        parts.append(f"MSG: {used}\n{known[used].strip()}")
-    return f"\n{BREAK}\n".join(parts) + "\n"
+    known = read_toml(Path(__file__).with_name("messages.toml"))
+    used = [f"MSG: {one}\n{known[one].strip()}" for one in dict.fromkeys(_used(name, known))]
+    return f"\n{BREAK}\n".join([known[name].strip(), *used]) + "\n"
 
 
 def _used(name: str, known: Mapping[str, str]) -> Iterator[str]:
@@ -218,5 +205,5 @@ def _pose(x: float, y: float, z: float, yaw: float) -> Message:
 
 
 def _twist(surge: float, sway: float, climb: float, rate: float) -> Message:
-    linear, angular = {"x": surge, "y": sway, "z": climb}, {"x": 0.0, "y": 0.0, "z": rate}
-    return {"linear": linear, "angular": angular}
+    linear = {"x": float(surge), "y": float(sway), "z": float(climb)}
+    return {"linear": linear, "angular": {"x": 0.0, "y": 0.0, "z": float(rate)}}

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from planner_ft.benchmark.statistics import Estimate, bootstrap_mean, wilson
 from planner_ft.document.structures import SAME
-from planner_ft.simulation.executor import Executor, Running, Stage
+from planner_ft.simulation.executor import Executor, Running
 from planner_ft.simulation.fast import Bools, Floats, Runs
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill
@@ -67,36 +67,27 @@ class RunResult:
         return self.outcome == "done"
 
 
-METRICS = (
-    *("steps", "seconds", "length", "waypoint_error", "holding_error", "standoff_error"),
-    *("fence_violations", "clearance_violations", "clearance", "energy"),
-)
-"""Figures of a run that have a mean."""
+METRICS = [one.name for one in fields(RunResult)][3:-2]  # figures of a run that have a mean
 
 
+@dataclass(eq=False)
 class Observer:
-    """Watches an executor: pass `finished` and `observed` to it, and every record to `noted`."""
+    """Watches an executor, which tells it what it has done; every record goes to `noted`."""
 
-    def __init__(
-        self,
-        scene: Scene,
-        fences: Sequence[Fence],
-        rings: Mapping[str, Ring],
-        close: frozenset[str],
-        tasks: Sequence[str],
-    ) -> None:
-        count = scene.count
-        self.scene, self.fences, self.rings, self.close = scene, fences, rings, close
-        self.tasks = tasks
+    scene: Scene
+    fences: Sequence[Fence]
+    rings: Mapping[str, Ring]
+    close: frozenset[str]
+    tasks: Sequence[str]
+
+    def __post_init__(self) -> None:
+        scene, count, structures = self.scene, self.scene.count, self.scene.world.structures
         self.waypoints: list[list[float]] = [[] for _run in range(count)]
-        self.holding, self.held = np.zeros(count), np.zeros(count)
-        self.standing, self.stood = np.zeros(count), np.zeros(count)
-        self.length, self.least = np.zeros(count), np.full(count, np.inf)
-        self.outside = np.zeros((count, len(fences)), dtype=bool)
-        structures = scene.world.structures
+        self.holding, self.held, self.standing, self.stood, self.length = np.zeros((5, count))
+        self.least = np.full(count, np.inf)
+        self.outside = np.zeros((count, len(self.fences)), dtype=bool)
         self.inside = np.zeros((count, len(structures)), dtype=bool)
-        self.fence_violations = np.zeros(count, dtype=int)
-        self.clearance_violations = np.zeros(count, dtype=int)
+        self.fence_violations, self.clearance_violations = np.zeros((2, count), dtype=int)
         self.records: list[Counter[str]] = [Counter() for _run in range(count)]
         self.reached: dict[str, Bools] = {}  # per task the runs that have come to its stand-off
         self.last = scene.pose[:, :2].copy()
@@ -109,7 +100,7 @@ class Observer:
         if line["kind"] == "record":
             self.records[run][line["task"]] += 1
 
-    def finished(self, stage: Stage, skill: Skill, runs: Runs) -> None:
+    def finished(self, skill: Skill, runs: Runs) -> None:
         """Take the errors at the end of a step."""
         for run, error in zip(runs, skill.errors(runs).get("waypoint", ()), strict=False):
             self.waypoints[run].append(float(error))
@@ -130,8 +121,7 @@ class Observer:
 
     def _step(self, running: Running, runs: Runs) -> None:
         stage, scene = running.stage, self.scene
-        here = scene.pose[runs, :2]
-        errors = running.movement.errors(runs)
+        here, errors = scene.pose[runs, :2], running.movement.errors(runs)
         held, kept = errors.get("holding"), errors.get("standoff")
         if held is not None:
             self.holding[runs] += held
@@ -149,12 +139,9 @@ class Observer:
             self.clearance_violations[runs] += (close & ~self.inside[runs]).sum(axis=1)
             self.inside[runs] = close
 
-    def results(self, executor: Executor) -> list[RunResult]:
-        """The result of every run so far."""
-        return [self._result(run, executor) for run in range(self.scene.count)]
-
-    def _result(self, run: int, executor: Executor) -> RunResult:
-        scene, seconds = self.scene, self.scene.seconds
+    def result(self, run: int, executor: Executor) -> RunResult:
+        """The result of a run (from 0) so far."""
+        scene = self.scene
         steps = int(executor.ended[run]) or scene.steps
         points = self.waypoints[run]
         return RunResult(
@@ -162,9 +149,9 @@ class Observer:
             executor.outcome[run],
             executor.reason[run],
             steps,
-            round(steps * seconds, 1),
+            round(steps * scene.seconds, 1),
             round(float(self.length[run]), 1),
-            round(sum(points) / len(points), 3) if points else None,
+            _mean(sum(points), len(points)),
             _mean(self.holding[run], self.held[run]),
             _mean(self.standing[run], self.stood[run]),
             int(self.fence_violations[run]),

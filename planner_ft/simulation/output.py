@@ -1,23 +1,118 @@
-"""The files of a simulation: results, the table beside the published figures, picture, report."""
+"""The files of a simulation: results, the table beside the published figures, picture, and the
+mission report of a run: what was observed where, from its records, as Markdown and HTML.
+"""
 
 from __future__ import annotations
 
+import base64
 import io
 from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.simulation.measures import METRICS, RunResult, summary
-from planner_ft.simulation.mission_report import report_texts
 from planner_ft.simulation.run import MANIFEST, RESULTS, Simulated
 from planner_ft.simulation.world import PILE
-from planner_ft.support.files import read_csv, write_json, write_text
+from planner_ft.support.files import compact_json, read_csv, write_json, write_text
 from planner_ft.support.manifest import build_manifest
-from planner_ft.support.tables import Cell, Table, csv_table, figure, markdown_table, row
+from planner_ft.support.resources import clock
+from planner_ft.support.tables import Cell, Table, csv_table, markdown_table, row
+from planner_ft.support.templates import environment
 
-PUBLISHED = Path(__file__).with_name("published.csv")
+FRAME = ("t", "kind", "at", "task", "step", "skill", "skills", "simulated")
+"""Keys of a record that say when, where and by what, not what was observed."""
+SHOWN = 6  # different texts of a skill that are shown
+Line = Mapping[str, Any]
+
+
+def report_texts(done: Simulated, picture: str) -> dict[str, str]:
+    """The report of run 1 by file ending."""
+    result, plan = done.results[0], done.plan
+    where = "Places are metres east and north of [0, 0]."
+    events = [one for one in done.log if one["kind"] in ("event", "end")]
+    content = {
+        "plan": plan,
+        "result": result,
+        "runs": len(done.results),
+        "outcome": result.outcome + (f" ({result.reason})" if result.reason else ""),
+        "where": f"[0, 0] is {plan.origin}." if plan.origin else where,
+        "tasks": [_task(task, done.log) for task in plan.document["tasks"]],
+        "events": [f"{clock(one['t'])} {one['text']}" for one in events],
+        "figures": f"{result.length:g} m in {clock(result.seconds)}",
+        "picture": "data:image/svg+xml;base64," + base64.b64encode(picture.encode()).decode(),
+    }
+    texts = {}
+    for ending in ("md", "html"):
+        how = {"finalize": _plain} if ending == "md" else {"autoescape": True}
+        found = environment("planner_ft.simulation", keep_trailing_newline=True, **how)
+        texts[ending] = found.get_template(f"report.{ending}.j2").render(content)
+    return texts
+
+
+def _task(task: Line, lines: Sequence[Line]) -> dict[str, Any]:
+    own = [one for one in lines if one.get("task") == task["id"]]
+    steps, records = ([one for one in own if one["kind"] == kind] for kind in ("step", "record"))
+    when = "Not begun."
+    if steps:
+        total = len(task["skill_sequence"])
+        when = f"Began at {clock(steps[0]['t'])}; {len(steps)} of {total} steps."
+    skills = dict.fromkeys(one["skill"] for one in records)
+    rows = [_row(name, [one for one in records if one["skill"] == name]) for name in skills]
+    return {**task, "when": when, "rows": rows}
+
+
+def _row(skill: str, records: Sequence[Line]) -> dict[str, Any]:
+    places = [one["at"] for one in records]
+    xs, ys = zip(*places, strict=True)
+    spread = max(xs) - min(xs) > 2 or max(ys) - min(ys) > 2
+    first = f"[{places[0][0]:.1f}, {places[0][1]:.1f}]"
+    where = f"{first} to [{places[-1][0]:.1f}, {places[-1][1]:.1f}]" if spread else first
+    told = {"skill": skill, "count": len(records), "first": clock(records[0]["t"])}
+    return {**told, "where": where, "what": "; ".join(_observed(records))}
+
+
+def _observed(records: Sequence[Line]) -> Iterable[str]:
+    """What the records of a skill say: objects, ranges of numbers, texts."""
+    for key in dict.fromkeys(key for one in records for key in one if key not in FRAME):
+        values = [one[key] for one in records if one.get(key) is not None]
+        numbers = [one for one in values if isinstance(one, (int, float)) and one is not True]
+        name = key.rpartition("_")[0].replace("_", " ") or key
+        unit = key.rpartition("_")[2] if "_" in key else ""
+        if key == "detections":
+            yield from _detected([one for found in values for one in found])
+        elif numbers and len(numbers) == len(values):
+            mean = sum(numbers) / len(numbers)
+            several = min(numbers) != max(numbers)
+            span = f" ({min(numbers):g} to {max(numbers):g})" if several else ""
+            yield f"{name} {mean:.4g} {unit}{span}".replace("  ", " ")
+        elif values and isinstance(values[0], list):
+            yield f"{name} {len(values)} times"
+        else:
+            texts = dict.fromkeys(
+                one if isinstance(one, str) else compact_json(one) for one in values
+            )
+            more = ", ..." if len(texts) > SHOWN else ""
+            yield f"{name}: {', '.join([*texts][:SHOWN]) or 'nothing'}{more}"
+
+
+def _detected(found: Sequence[Line]) -> Iterable[str]:
+    for name in dict.fromkeys(one["name"] for one in found):
+        own = [one for one in found if one["name"] == name]
+        x, y = (sum(one["at"][axis] for one in own) / len(own) for axis in (0, 1))
+        by = "/".join(dict.fromkeys(one["by"] for one in own))
+        yield f"{name} at [{x:.1f}, {y:.1f}] ({len(own)} times, {by})"
+
+
+def _plain(value: Any) -> Any:
+    """A text that cannot break out of its cell or line of Markdown."""
+    if not isinstance(value, str):
+        return value
+    return " ".join(value.split()).replace("|", "\\|").replace("<", "&lt;")
+
+
 COLUMNS = {
     "success": ("success % ↑", 100, 1),
     "steps": ("steps", 1, 0),
@@ -42,15 +137,22 @@ SETTINGS = {"svg.hashsalt": "planner_ft", "svg.fonttype": "none", "font.size": 9
 
 def write_all(done: Simulated) -> None:
     """Write everything but the logs, which are there already."""
-    folder = done.settings.folder
-    made = table(done)
-    picture = track_svg(done)
+    folder, made, picture = done.settings.folder, table(done), track_svg(done)
     write_text(folder / "table.md", markdown_table(made))
     write_text(folder / "table.csv", csv_table(made))
     write_text(folder / "tracks.svg", picture)
     for ending, text in report_texts(done, picture).items():
         write_text(folder / f"report.{ending}", text)
-    write_json(folder / RESULTS, results_json(done))
+    overall = summary(done.results, done.settings.seed)
+    results = {
+        "plan": done.plan.mark,
+        "approved": done.plan.approval is not None,
+        "command": done.plan.document["command"],
+        "overall": {name: one.to_json() for name, one in overall.items()},
+        "metrics": list(METRICS),
+        "runs": [{**asdict(one), "success": one.success} for one in done.results],
+    }
+    write_json(folder / RESULTS, results)
     write_json(folder / MANIFEST, manifest(done))
 
 
@@ -61,10 +163,7 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     measured = summary(done.results, done.settings.seed)
     mark = "" if done.plan.approval else ", DRAFT - NOT APPROVED"
     quoted = _published(done, narrow)
-    names = [
-        f"{done.settings.simulator}{mark}",
-        *(f"{one['mission']} (published)" for one in quoted),
-    ]
+    names = [done.settings.simulator + mark, *(f"{one['mission']} (published)" for one in quoted)]
     rows = [row("runs", str(len(done.results)), *(one["runs"] for one in quoted))]
     for name, (heading, *_form) in COLUMNS.items():
         cells = [cell(name, Estimate(number(one, name))) for one in quoted]
@@ -79,19 +178,6 @@ def outcome_lines(results: list[RunResult]) -> list[str]:
         f"{count} of {len(results)} runs: {outcome}{f' ({reason})' if reason else ''}"
         for (outcome, reason), count in counts.most_common()
     ]
-
-
-def results_json(done: Simulated) -> dict[str, Any]:
-    """The content of results.json."""
-    overall = summary(done.results, done.settings.seed)
-    return {
-        "plan": done.plan.mark,
-        "approved": done.plan.approval is not None,
-        "command": done.plan.document["command"],
-        "overall": {name: one.to_json() for name, one in overall.items()},
-        "metrics": list(METRICS),
-        "runs": [{**asdict(one), "success": one.success} for one in done.results],
-    }
 
 
 def manifest(done: Simulated) -> dict[str, Any]:
@@ -110,32 +196,26 @@ def manifest(done: Simulated) -> dict[str, Any]:
         "vocabulary": vocabulary.named,
     }
     inputs: dict[str, Path | str] = {"plan": settings.plan}
-    approval = done.plan.mark
-    return build_manifest(
-        "simulation",
-        seed=settings.seed,
-        configuration=configuration,
-        inputs=inputs,
-        approval=approval,
-    )
+    about: dict[str, Any] = {"configuration": configuration, "inputs": inputs}
+    return build_manifest("simulation", seed=settings.seed, **about, approval=done.plan.mark)
 
 
 def cell(name: str, value: Estimate) -> Cell:
     _heading, factor, decimals = COLUMNS[name]
-    return figure(value.value, value.low, value.high, scale=factor, decimals=decimals)
+    return value.cell(scale=factor, decimals=decimals)
 
 
 def published_missions() -> list[dict[str, str]]:
     """The lines of published.csv."""
-    return read_csv(PUBLISHED)
+    return read_csv(Path(__file__).with_name("published.csv"))
 
 
 def _published(done: Simulated, narrow: bool) -> list[dict[str, str]]:
     """The published missions of this command, or all of them; none of another vehicle."""
     if done.plan.vocabulary.name != "usv":
         return []
-    lines = published_missions()
-    same = [line for line in lines if line["command"] == done.plan.document["command"].strip()]
+    lines, command = published_missions(), done.plan.document["command"].strip()
+    same = [line for line in lines if line["command"] == command]
     return same or ([] if narrow else lines)
 
 
@@ -169,14 +249,13 @@ def _drawn(done: Simulated) -> str:
         axes.add_patch(Polygon(boundary.polygon, linestyle=":", **edge))
     outlines = done.scene.world.outlines
     for number, structure in enumerate(done.scene.world.structures):
-        solid = (
-            Polygon(outlines[number]) if number in outlines else Circle(structure.position, PILE)
-        )
+        at, outline = structure.position, outlines.get(number)
+        solid = Circle(at, PILE) if outline is None else Polygon(outline)
         solid.set_color("#444")
         axes.add_patch(solid)
         ring: dict[str, Any] = {"fill": False, "edgecolor": "#888", "linestyle": "--"}
-        axes.add_patch(Circle(structure.position, structure.standoff, **ring))
-        axes.annotate(structure.name, structure.position, (4, 4), textcoords="offset points")
+        axes.add_patch(Circle(at, structure.standoff, **ring))
+        axes.annotate(structure.name, at, (4, 4), textcoords="offset points")
     for run, track in reversed(list(enumerate(done.tracks[:MOST_TRACKS]))):
         line: dict[str, Any] = {"color": "#06c", "linewidth": 1.6, "label": "run 1", "zorder": 4}
         if run:

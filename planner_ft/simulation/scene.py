@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.simulation.fast import Bools, Floats, Runs, Simulator, turned
-from planner_ft.simulation.vessel import Vessel
+from planner_ft.simulation.fast import Bools, Floats, Runs, Simulator, Vessel, turned
 from planner_ft.simulation.world import World
 from planner_ft.support.geodesy import Origin
 
@@ -37,13 +36,7 @@ class Pid:
     """
 
     def __init__(
-        self,
-        runs: int,
-        p: float,
-        i: float = 0.0,
-        d: float = 0.0,
-        most: float = 1.0,
-        small: float = np.inf,
+        self, runs: int, p: float, i: float, d: float = 0.0, *, most: float, small: float
     ) -> None:
         self.p, self.i, self.d, self.most, self.small = p, i, d, most, small
         self.sum, self.last = np.zeros(runs), np.zeros(runs)
@@ -144,7 +137,6 @@ class Scene:
         self.command, self.idle = np.zeros((count, 4)), np.zeros(count, dtype=bool)
         self.broken = np.zeros(count, dtype=bool)
         """Runs of which the simulator gave no finite state: they stay where they were."""
-        self.actuators = np.zeros((count, 4 if world.vessel.drive == "free" else 2))
         self.energy = np.zeros(count)  # N s: the integral of all thrust
         self.charge = np.full(count, world.vessel.capacity * world.faults.share("battery", 0))
         """N s that the battery has left, hotel load included."""
@@ -186,8 +178,7 @@ class Scene:
     def ranges(self, runs: Runs) -> Floats:
         """LiDAR ranges (n, rays) of this step."""
         if self._scan is None or self._scan[0] != self.steps:
-            everyone = np.arange(self.count)
-            self._scan = self.steps, self.world.ranges(self.pose, everyone, self.time)
+            self._scan = self.steps, self.world.ranges(self.pose, self.time)
         return self._scan[1][runs]
 
     def tilt(self, runs: Runs) -> Floats:
@@ -206,23 +197,16 @@ class Scene:
         if self.vessel.drive == "differential":
             left = np.array([world.faults.share(side, time) for side in ("port", "starboard")])
             made = np.clip(made, -left * self.vessel.thrust, left * self.vessel.thrust)
-        self.actuators = made
         before = self.pose.copy()
         self.simulator.step(made, current, wind)
         self.broken |= ~np.isfinite(np.hstack([self.pose, self.twist])).all(axis=1)
         self.pose[self.broken], self.twist[self.broken] = before[self.broken], 0.0
-        spent = (
-            dt
-            * np.abs(np.nan_to_num(made)[:, : 2 if made.shape[1] == 2 else 3]).sum(axis=1)
-            * active
-        )
+        spent = dt * np.abs(np.nan_to_num(made)[:, :3]).sum(axis=1) * active
         self.energy += spent
         self.charge = np.maximum(0, self.charge - spent - dt * self.vessel.hotel * active)
         self.steps += 1
-        every = round(FIX_EVERY / dt)
-        heard = not any(world.faults.active("gps", self.time))
-        moved = self.pose, self.twist, current
-        self.localiser.step(*moved, dt, heard, self.steps % every == 0)
+        heard, due = world.faults.active("gps", self.time), self.steps % round(FIX_EVERY / dt) == 0
+        self.localiser.step(self.pose, self.twist, current, dt, not any(heard), due)
 
     def note(self, run: int, kind: str, values: Mapping[str, Any]) -> None:
         """Write a line into the log of a run."""

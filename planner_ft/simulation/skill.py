@@ -11,37 +11,19 @@ import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from planner_ft.document.track import Point
-from planner_ft.simulation.fast import Bools, Floats, Runs
+from planner_ft.simulation.fast import Bools, Floats, Runs, Vessel
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.vessel import Vessel
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary import Vocabulary
+from planner_ft.support.files import read_toml
 from planner_ft.vocabulary.definition import Motion
 
 GROUP = "planner_ft.skills"
-PLACE, LEARNT = "planner_ft.simulation", "planner_ft.skills.mission"
-BUNDLED = {
-    "go": f"{PLACE}.guidance:Follow",
-    "arc": f"{PLACE}.guidance:Follow",
-    "hold": f"{PLACE}.navigation:Hold",
-    "turn-to": f"{PLACE}.navigation:Turn",
-    "turn-by": f"{PLACE}.navigation:Turn",
-    "drift": f"{PLACE}.navigation:Drift",
-    "wait": f"{PLACE}.navigation:Wait",
-    "boundary": f"{PLACE}.filters:Boundary",
-    "clearance": f"{PLACE}.filters:Clearance",
-    "heading": f"{PLACE}.filters:Heading",
-    "measure": f"{PLACE}.sensing:Sensor",
-    "learnt-goto": f"{LEARNT}:LearntGo",
-    "learnt-hold": f"{LEARNT}:LearntHold",
-    "learnt-survey": f"{LEARNT}:LearntSurvey",
-}
-"""Implementations by kind of motion (usv.motion.toml), and those without a motion."""
 
 
 @dataclass(frozen=True)
@@ -134,26 +116,20 @@ def implementation_of(job: Job) -> type[Skill]:
     if name not in known:
         problem = f"implementation = {name!r} is not installed"
         raise PlannerError(f"{where}: {problem}; there is {', '.join(known)}")
+    place = known[name].value
     try:
         found = known[name].load()
     except (ImportError, AttributeError) as error:
         hint = "install what it needs, or the package that adds it anew"
-        raise PlannerError(
-            f"{where}: {known[name].value} cannot be loaded ({error}); {hint}"
-        ) from None
+        raise PlannerError(f"{where}: {place} cannot be loaded ({error}); {hint}") from None
     if not (isinstance(found, type) and issubclass(found, Skill)):
-        raise PlannerError(f"{where}: {known[name].value} is no Skill; ask whoever wrote it")
+        raise PlannerError(f"{where}: {place} is no Skill; ask whoever wrote it")
     return found
 
 
 @functools.cache
 def _implementations() -> dict[str, EntryPoint]:
     """By name. A look through all that is installed takes milliseconds, and plans have many steps."""
-    known = {key: EntryPoint(key, place, GROUP) for key, place in BUNDLED.items()}
+    bundled = read_toml(Path(__file__).with_name("implementations.toml"))
+    known = {key: EntryPoint(key, place, GROUP) for key, place in bundled.items()}
     return known | {one.name: one for one in entry_points(group=GROUP)}
-
-
-def settings_of(vocabulary: Vocabulary, raw: Mapping[str, Any], skill: str) -> Mapping[str, Any]:
-    """[skill.NAME] of the simulation file; {} for a skill that it does not name."""
-    found = raw.get("skill", {}).get(skill, {})
-    return found if isinstance(found, Mapping) and skill in vocabulary.skill else {}

@@ -1,25 +1,35 @@
-"""From a plan document to stages that an executor runs, and everything that is refused before."""
+"""From a plan document to stages that an executor runs, and everything that is refused before.
+
+A slot of a plan is exchangeable: guidance and waypoints, or learnt skills; parameters, perception,
+filters, end and failure modes stay what they are. `learnt = "..."` in [skill.NAME] and [task.TITLE]
+of NAME.simulation.toml names the implementation.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from planner_ft.document.limits import limits_of
 from planner_ft.document.structures import ROUND, Allowed, Structure, fence, structures
-from planner_ft.document.track import Leg, Point, place_of
+from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of, shown
 from planner_ft.exporters.formats import PlanExport
+from planner_ft.simulation.asked import GUIDANCE, LEARNT, WAYPOINTS, SimulationSettings
 from planner_ft.simulation.executor import Stage
+from planner_ft.simulation.fast import Vessel
 from planner_ft.simulation.measures import Ring
 from planner_ft.simulation.sensing import MEASURES
-from planner_ft.simulation.skill import Job, implementation_of, settings_of
-from planner_ft.simulation.slots import LEARNT, WAYPOINTS, Slots
-from planner_ft.simulation.vessel import Vessel
-from planner_ft.simulation.world import Fence, World
+from planner_ft.simulation.skill import Job, implementation_of
+from planner_ft.simulation.world import PILE, Fence, World
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import SIMULATION, Motion
 
+CLEAR = 0.5  # share of a learnt stand-off that filters without a distance of their own keep clear
+Entry = Mapping[str, Any]
 PATIENCE, SLACK = 3.0, 60.0
 """A step may take so many times what it is planned for, and so many seconds more."""
 SQUARE = "square"  # the pattern of a task whose stand-off is half the side of a square
@@ -29,17 +39,14 @@ class Staging:
     """The stages of one plan. Raises PlannerError for a plan that cannot be run as a whole."""
 
     def __init__(
-        self,
-        plan: PlanExport,
-        vessel: Vessel,
-        raw: Mapping[str, Any],
-        tolerance: float,
-        slots: Slots | None = None,
+        self, plan: PlanExport, vessel: Vessel, raw: Entry, settings: SimulationSettings
     ) -> None:
-        self.plan, self.vessel, self.raw, self.tolerance = plan, vessel, raw, tolerance
-        self.slots = slots or Slots()
-        self.slots.check(raw, plan.vocabulary.name)
+        self.plan, self.vessel, self.raw, self.settings = plan, vessel, raw, settings
         self.document, self.vocabulary = plan.document, plan.vocabulary
+        for flag, value, usual, table in settings.slots:
+            if value != usual and not any(LEARNT in one for one in raw.get(table, {}).values()):
+                problem = f"{self.vocabulary.name} has no learnt skill for it; leave it out"
+                raise PlannerError(f"{flag} {value}: {problem}")
         self.legs = {(leg.task, leg.step): leg for leg in plan.track.legs}
         self.limits = limits_of(self.document, self.vocabulary)
         self.structures: list[Structure] = structures(self.document, self.vocabulary)
@@ -65,13 +72,14 @@ class Staging:
     @property
     def fences(self) -> list[Fence]:
         """The polygons that the whole plan keeps."""
-        found = [
-            Fence(_polygon(limit["values"]["polygon"]), limit["kind"] == "fence")
+        areas = [
+            (limit["values"]["polygon"], limit["kind"] == "fence")
             for limit in self.limits
             if limit["kind"] in ("fence", "keep_out_area")
         ]
-        area = self.document["vehicle"]["area"]
-        return found + ([Fence(_polygon(area))] if area else [])
+        if area := self.document["vehicle"]["area"]:
+            areas.append((area, True))
+        return [Fence(tuple(map(point_of, corners)), inside) for corners, inside in areas]
 
     @property
     def allowed(self) -> Allowed:
@@ -97,11 +105,9 @@ class Staging:
         """The stand-off of each task that keeps one, by its id."""
         found = {}
         for task in self.document["tasks"]:
-            own = self.vocabulary.motion.standoff(task["title"])
-            center, known = place_of(task, self.vocabulary), self.vocabulary.task[task["title"]]
-            radius = task["parameters"].get(own.radius) if own else None
-            if center and radius and known.pattern in ROUND:
-                found[task["id"]] = Ring(center, float(radius), known.pattern == SQUARE)
+            circle, known = circle_of(task, self.vocabulary), self.vocabulary.task[task["title"]]
+            if circle and known.pattern in ROUND:
+                found[task["id"]] = Ring(*circle, known.pattern == SQUARE)
         return found
 
     def close(self) -> frozenset[str]:
@@ -113,23 +119,21 @@ class Staging:
         """Raise PlannerError for a start in a structure, and for one or a home that a fence
         excludes.
         """
-        import numpy as np
-
         home = self.vocabulary.home
-        for polygon in self.fences if home not in starts else ():
-            if polygon.outside_by(np.array([home]))[0] > 0:
-                problem = "a fence of the plan excludes home, where runs that fail return to"
-                raise PlannerError(f"{problem}; plan with another fence")
+        if home not in starts and self._excludes(home):
+            problem = "a fence of the plan excludes home, where runs that fail return to"
+            raise PlannerError(f"{problem}; plan with another fence")
         for start, away in zip(starts, world.nearest(np.array(starts, float)), strict=True):
-            shown = f"[{start[0]:g}, {start[1]:g}]"
             if away < self.vessel.radius:
                 near = min(world.structures, key=lambda one: math.dist(start, one.position))
-                problem = f"the vehicle would start in {near.name}, at {shown}"
+                problem = f"the vehicle would start in {near.name}, at {shown(start)}"
                 raise PlannerError(f"{problem}; give --start x,y or another place of it")
-            for polygon in self.fences:
-                if polygon.outside_by(np.array([start]))[0] > 0:
-                    problem = f"a fence of the plan excludes the start {shown}"
-                    raise PlannerError(f"{problem}; plan with another fence, or give --start x,y")
+            if self._excludes(start):
+                problem = f"a fence of the plan excludes the start {shown(start)}"
+                raise PlannerError(f"{problem}; plan with another fence, or give --start x,y")
+
+    def _excludes(self, place: Point) -> bool:
+        return any(one.outside_by(np.array([place]))[0] > 0 for one in self.fences)
 
     def stages(self) -> Iterator[Stage]:
         """The steps of all tasks in their order."""
@@ -139,29 +143,47 @@ class Staging:
                 self._stage(task, number, step, own[1] if own else None)
                 for number, step in enumerate(task["skill_sequence"])
             ]
-            job = self._survey(task)
-            yield from self.slots.surveyed(stages, job) if job else stages
+            job = self._survey(task, stages[1:] or stages)
+            yield from self._surveyed(stages, job) if job else stages
 
-    def _survey(self, task: Mapping[str, Any]) -> Job | None:
+    def _survey(self, task: Entry, rest: Sequence[Stage]) -> Job | None:
         """The one movement that takes the place of a task's waypoints, where it is to."""
         learnt = self.raw.get("task", {}).get(task["title"], {}).get(LEARNT)
-        ring = self.rings().get(task["id"])
-        if self.slots.survey == WAYPOINTS or not learnt or not ring:
+        survey, ring = self.settings.survey, self.rings().get(task["id"])
+        if survey == WAYPOINTS or not learnt or not ring:
             return None
-        name = next((one.name for one in self.structures if one.position == ring.center), None)
-        folder = {} if self.slots.survey == LEARNT else {"policy": self.slots.survey}
-        standoff = self.slots.standoff(name, ring.radius)
-        settings = {"implementation": learnt, "standoff": standoff, **folder}
-        speed = min(self.vessel.cruise, self.speed)
-        where: dict[str, Any] = {"center": ring.center, "tolerance": self.tolerance, "speed": speed}
-        motion, failure = Motion("go", {}), "survey failed"
-        given = task["parameters"]
-        return Job(task["title"], given, motion, settings, task["id"], failure=failure, **where)
+        name = next((one.name for one in self.structures if one.position == ring.center), "")
+        outline = self.settings.outlines.get(name)
+        reach = PILE if outline is None else float(np.linalg.norm(outline, axis=1).max())
+        folder = {} if survey == LEARNT else {"policy": survey}
+        return Job(
+            *(task["title"], task["parameters"], Motion("go", {})),
+            settings={"implementation": learnt, "standoff": ring.radius - reach, **folder},
+            task=task["id"],
+            step=rest[0].step,
+            speed=min(self.vessel.cruise, self.speed),
+            center=ring.center,
+            tolerance=self.settings.tolerance,
+            failure="survey failed",
+        )
+
+    def _surveyed(self, stages: Sequence[Stage], job: Job) -> list[Stage]:
+        """The stages of a task with all but its approach replaced by one learnt survey."""
+        clear = CLEAR * float(job.settings["standoff"])
+        filters, sensors = (
+            [replace(one, step=job.step) for one in _all(stages, role)]
+            for role in ("filters", "sensors")
+        )
+        filters = [replace(one, margin=min(one.margin, clear)) for one in filters]
+        patience = sum(one.patience for one in stages[1:] or stages)
+        modes = tuple(dict.fromkeys(mode for one in stages for mode in one.failures))
+        beside = tuple(filters), tuple(sensors)
+        return [stages[0], Stage(job.task, job.step, job, *beside, patience, modes)]
 
     def check_skills(self, stages: Sequence[Stage]) -> None:
         """Raise PlannerError for a skill without implementation and an unknown measure."""
         for stage in stages:
-            for job in (stage.movement, *stage.filters, *stage.sensors):
+            for job in stage.jobs:
                 implementation_of(job).check(job, self.vessel)
                 if (measure := job.settings.get("measure")) not in (None, *MEASURES):
                     where = f"{self.vocabulary.name}{SIMULATION}: [skill.{job.skill}]"
@@ -173,7 +195,7 @@ class Staging:
         movement = Job(
             *("way home", {}, Motion("go", {}), {}, "home", 0, (self.vocabulary.home,)),
             speed=min(self.vessel.cruise, self.speed),
-            tolerance=self.tolerance,
+            tolerance=self.settings.tolerance,
             failure="home not reached",
         )
         margin, known = self.document["vehicle"]["stand_off"], self.vocabulary.motion.skills
@@ -184,9 +206,7 @@ class Staging:
         ]
         return Stage("home", 0, movement, tuple(filters), (), self.seconds, ())
 
-    def _stage(
-        self, task: Mapping[str, Any], number: int, step: Mapping[str, Any], own: float | None
-    ) -> Stage:
+    def _stage(self, task: Entry, number: int, step: Entry, own: float | None) -> Stage:
         leg = self.legs.get((task["id"], number))
         skill = step["navigation_skill"]
         motion = self.vocabulary.motion.of(skill["name"])
@@ -194,31 +214,36 @@ class Staging:
         seconds = own if stated is None else float(stated)
         stays = leg is not None and leg.kind in ("hold", "drift")
         movement = self._job(task, number, skill, leg, seconds if stays else None)
-        filters = [self._job(task, number, one, None, None) for one in step["filter_skills"]]
-        sensors = [self._job(task, number, one, None, None) for one in step["perception_skills"]]
+        filters, sensors = (
+            tuple(self._job(task, number, one, None, None) for one in step[key])
+            for key in ("filter_skills", "perception_skills")
+        )
         planned = (leg.seconds if leg else None) or seconds or 0.0
-        patience = PATIENCE * planned + SLACK
-        modes = tuple(step["failure_modes"])
-        return Stage(task["id"], number, movement, tuple(filters), tuple(sensors), patience, modes)
+        patience, modes = PATIENCE * planned + SLACK, tuple(step["failure_modes"])
+        return Stage(task["id"], number, movement, filters, sensors, patience, modes)
+
+    def _filled(self, skill: str, motion: Motion | None) -> Entry:
+        """[skill.NAME] of the simulation file, if any, with what fills its slot."""
+        own, goto = self.raw.get("skill", {}).get(skill, {}), self.settings.goto
+        if not isinstance(own, Mapping):
+            return {}
+        if goto == GUIDANCE or LEARNT not in own:
+            return own
+        given = motion and motion.kind == "go" and goto != LEARNT
+        return {**own, "implementation": own[LEARNT], **({"policy": goto} if given else {})}
 
     def _job(
-        self,
-        task: Mapping[str, Any],
-        number: int,
-        skill: Mapping[str, Any],
-        leg: Leg | None,
-        seconds: float | None,
+        self, task: Entry, number: int, skill: Entry, leg: Leg | None, seconds: float | None
     ) -> Job:
         name, vocabulary = skill["name"], self.vocabulary
         pace = leg.metres / leg.seconds if leg and leg.seconds and leg.metres else None
         speed = min(pace or self.vessel.cruise, self.speed, self.vessel.speed)
         ring, motion = vocabulary.motion.standoff(task["title"]), vocabulary.motion.of(name)
-        kind = motion.kind if motion else None
         return Job(
             name,
             skill["parameters"],
             motion,
-            self.slots.settings(settings_of(vocabulary, self.raw, name), kind),
+            self._filled(name, motion),
             task["id"],
             number,
             leg.points if leg else (),
@@ -226,10 +251,15 @@ class Staging:
             speed,
             place_of(task, vocabulary) if ring else None,
             float(self.document["vehicle"]["stand_off"]),
-            self.tolerance,
+            self.settings.tolerance,
             vocabulary.skill[name].failure or "failed",
         )
 
 
-def _polygon(corners: Sequence[Sequence[float]]) -> tuple[Point, ...]:
-    return tuple((float(x), float(y)) for x, y in corners)
+def _all(stages: Sequence[Stage], role: str) -> list[Job]:
+    """The filters or sensors of all stages, each once."""
+    found: dict[str, Job] = {}
+    for stage in stages:
+        for job in getattr(stage, role):
+            found.setdefault(f"{job.skill} {sorted(job.parameters.items())}", job)
+    return list(found.values())

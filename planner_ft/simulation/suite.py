@@ -15,15 +15,12 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.benchmark.definitions import Kind, key_problems
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.document import build, read_document, write_document
-from planner_ft.document.track import Point
 from planner_ft.document.vehicle import load_vehicle
-from planner_ft.planning.locations import Position
 from planner_ft.review import approve, log_beside
 from planner_ft.review.approval import approval_of
-from planner_ft.simulation.asked import read_outlines
-from planner_ft.simulation.fast import Floats
+from planner_ft.simulation.asked import SimulationSettings, read_outlines
 from planner_ft.simulation.output import COLUMNS, cell, number, published_missions
-from planner_ft.simulation.run import MANIFEST, RESULTS, SimulationSettings, simulate
+from planner_ft.simulation.run import MANIFEST, RESULTS, simulate
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import check_writable, read_json, read_toml, write_json, write_text
@@ -50,19 +47,14 @@ Ran = dict[tuple[str, str], dict[str, Any]]  # results.json by mission and simul
 
 @dataclass(frozen=True)
 class Mission:
-    """A command and its runs; `published` names its line in published.csv, `locate` says where
-    places are, to the agents and in the world; `outlines` as --outline.
+    """A command and its runs; `published` names its line in published.csv, `asked` are settings of
+    its simulation, whose `locations` also the agents are told.
     """
 
     name: str
     command: str
     published: str
-    locate: Mapping[str, Position]
-    runs: int
-    tolerance: float
-    starts: tuple[Point, ...]
-    survey: str
-    outlines: Mapping[str, Floats]
+    asked: Mapping[str, Any]
 
     @property
     def folder(self) -> str:
@@ -114,10 +106,11 @@ def _mission(values: Mapping[str, Any]) -> Mission:
     name, published = values["name"], values.get("published", values["name"])
     if published not in [one["mission"] for one in published_missions()]:
         raise PlannerError(f"published = {published!r} is no published mission")
-    tolerance, runs = values.get("tolerance", 1.0), values.get("runs", 20)
-    what = values["command"], published, places, runs, tolerance, starts, survey
     outlines = [f"{structure}={shape}" for structure, shape in values.get("outlines", {}).items()]
-    return Mission(name, *what, read_outlines(outlines))
+    asked = {key: values[key] for key in ("tolerance", "runs") if key in values}
+    asked |= {"locations": places, "starts": starts, "survey": survey}
+    asked["outlines"] = read_outlines(outlines)
+    return Mission(name, values["command"], published, asked)
 
 
 def run_suite(suite: Suite, out: Path, report: Report, *, overwrite: bool = False) -> Ran:
@@ -172,7 +165,7 @@ def _is_approved(plan: Path) -> bool:
 
 def _plan(mission: Mission, path: Path, agents: Planner) -> None:
     """Write the plan of a mission, and approve it in a log of its own beside it."""
-    planned = agents.plan(mission.command, mission.locate)
+    planned = agents.plan(mission.command, mission.asked["locations"])
     document = build(planned, agents.vocabulary, load_vehicle(None, agents.vocabulary))
     write_document(path, document)
     approve(document, log_beside(path), f"suite, {mission.name}", ["all"], REASON)
@@ -183,21 +176,9 @@ def _named(report: Report, name: str) -> Report:
 
 
 def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> SimulationSettings:
-    return SimulationSettings(
-        plan,
-        plan.parent / simulator,
-        mission.runs,
-        suite.raw["seed"],
-        simulator,
-        mission.tolerance,
-        mission.locate,
-        mission.starts,
-        mcap=0,
-        # What a killed run left is begun anew: its logs alone are there.
-        overwrite=True,
-        survey=mission.survey,
-        outlines=mission.outlines,
-    )
+    # What a killed run left is begun anew: its logs alone are there.
+    how = {"simulator": simulator, "overwrite": True, "mcap": 0, **mission.asked}
+    return SimulationSettings(plan, plan.parent / simulator, seed=suite.raw["seed"], **how)
 
 
 def suite_table(suite: Suite, ran: Ran, names: Sequence[str] = tuple(COLUMNS)) -> Table:

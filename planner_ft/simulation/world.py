@@ -12,8 +12,7 @@ import numpy as np
 from planner_ft.document.structures import Allowed, Structure
 from planner_ft.document.track import Point
 from planner_ft.simulation.asked import Faults
-from planner_ft.simulation.fast import Floats, Runs
-from planner_ft.simulation.vessel import Vessel
+from planner_ft.simulation.fast import Floats, Vessel
 from planner_ft.support.errors import PlannerError
 
 PILE = 0.5  # metres: radius of a structure, which a plan knows as a point. ASSUMPTION
@@ -49,35 +48,31 @@ class Fence:
         return np.asarray(shapely.get_coordinates(found), dtype=float)
 
 
+@dataclass(eq=False)
 class World:
     """What stands in the water and what the water does, for B runs of one seed: `structures` where
     they are, `charted` where the plan has them; `allowed` legs keep the fences.
     """
 
-    def __init__(
-        self,
-        vessel: Vessel,
-        home: Point,
-        charted: Sequence[Structure],
-        structures: Sequence[Structure],
-        objects: Mapping[str, Point],
-        fences: Sequence[Fence],
-        allowed: Allowed,
-        faults: Faults,
-        runs: int,
-        seed: int,
-    ) -> None:
-        self.vessel, self.home, self.charted = vessel, home, tuple(charted)
-        self.structures, self.allowed = tuple(structures), allowed
-        self.objects, self.fences, self.faults = dict(objects), tuple(fences), faults
-        self.generator = np.random.default_rng([seed, 1])
-        speed = self.generator.uniform(*CURRENT, runs)
-        self.current = speed[:, None] * _unit(self.generator.uniform(0, 2 * np.pi, runs))
-        self._directions = self.generator.uniform(0, 2 * np.pi, runs)
-        swell = np.random.default_rng([seed, 2])
+    vessel: Vessel
+    home: Point
+    charted: Sequence[Structure]
+    structures: Sequence[Structure]
+    objects: Mapping[str, Point]
+    fences: Sequence[Fence]
+    allowed: Allowed
+    faults: Faults
+    runs: int
+    seed: int
+
+    def __post_init__(self) -> None:
+        self.generator = np.random.default_rng([self.seed, 1])
+        speed = self.generator.uniform(*CURRENT, self.runs)
+        self.current = speed[:, None] * _unit(self.generator.uniform(0, 2 * np.pi, self.runs))
+        self._directions = self.generator.uniform(0, 2 * np.pi, self.runs)
+        swell = np.random.default_rng([self.seed, 2])
         self._bearing, *self._phases = swell.uniform(0, 2 * np.pi, 1 + 2 * len(WAVES))
-        places = [one.position for one in structures] or np.zeros((0, 2))
-        self.piles = np.array(places, dtype=float).reshape(-1, 2)
+        self.piles = np.array([one.position for one in self.structures], float).reshape(-1, 2)
         self.outlines: dict[int, Floats] = {}
         """Corners (n, 2) of structures that are more than a pile, by number."""
 
@@ -108,9 +103,8 @@ class World:
         """Where water or air move to; a fault says where a wind comes from."""
         total = np.zeros((len(self._directions), 2))
         for fault in self.faults.active(kind, time):
-            if fault.bearing is None:
-                angle = self._directions
-            else:
+            angle = self._directions
+            if fault.bearing is not None:
                 compass = fault.bearing + (180 if kind == "wind" else 0)
                 angle = np.full(len(total), math.radians(90 - compass))
             total += fault.value * _unit(angle)
@@ -119,15 +113,13 @@ class World:
     def depth(self, x: float, y: float) -> float:
         """Metres of water: a slope with swells across it, the same for one seed."""
         along = x * math.cos(self._bearing) + y * math.sin(self._bearing)
-        depth = DEPTH + SLOPE * along
-        for (height, length), phase, turn in zip(
-            WAVES, self._phases[::2], self._phases[1::2], strict=True
-        ):
+        depth, phases = DEPTH + SLOPE * along, self._phases
+        for (height, length), phase, turn in zip(WAVES, phases[::2], phases[1::2], strict=True):
             across = x * math.cos(turn) + y * math.sin(turn)
             depth += height * math.sin(2 * math.pi * across / length + phase)
         return max(1.0, depth)
 
-    def ranges(self, pose: Floats, runs: Runs, time: float) -> Floats:
+    def ranges(self, pose: Floats, time: float) -> Floats:
         """LiDAR ranges (n, rays) of vehicles at `pose` (n, 4): counter-clockwise from the bow,
         infinite where nothing is hit or the ray is lost.
         """
@@ -158,9 +150,8 @@ class World:
             away = np.linalg.norm(places[:, None] - self.round[None], axis=-1)
             found = np.asarray(away.min(axis=1) - PILE, dtype=float)
         for corners in self.outlines.values():
-            found = np.minimum(
-                found, Fence(tuple(map(tuple, corners)), False).outside_by(places) * -1
-            )
+            edge = Fence(tuple(map(tuple, corners)), inside=False)
+            found = np.minimum(found, -edge.outside_by(places))
         return found
 
     def find(self, name: Any) -> tuple[str, Point] | None:

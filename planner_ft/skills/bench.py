@@ -2,34 +2,43 @@
 
 from __future__ import annotations
 
-import json
+import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 
 from planner_ft.benchmark.statistics import bootstrap_mean, wilson
+from planner_ft.simulation.asked import Faults
+from planner_ft.simulation.executor import Running, Stage
+from planner_ft.simulation.fast import Bools, FastSimulator, Floats
+from planner_ft.simulation.scene import Scene
+from planner_ft.simulation.skill import Job
+from planner_ft.simulation.world import World
+from planner_ft.skills.dynamics import Guidance, published_vessel
 from planner_ft.skills.episodes import Actor, Episode, contour_follower, oracle, play
-from planner_ft.skills.policies import MANIFEST, SKILLS, Policy, digest, read_policy, torch_threads
-from planner_ft.skills.shapes import HELD_OUT, PUBLISHED
+from planner_ft.skills.geometry import HELD_OUT, PUBLISHED
+from planner_ft.skills.policies import MANIFEST, SKILLS, Policy, read_policy
 from planner_ft.skills.survey import Task
-from planner_ft.skills.tracker import Guidance
-from planner_ft.skills.tracking_bench import tracking_table
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import (
-    compact_json,
     make_folder,
     read_csv,
     read_json,
+    sha256_file,
     write_json,
     write_text,
 )
+from planner_ft.support.geodesy import Origin
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, csv_table, figure, markdown_table, row
 from planner_ft.support.terminal import Report
+from planner_ft.vocabulary.motion import Motion
 
 MOST = 500
 ROUNDING = 1.5
@@ -76,9 +85,8 @@ class SkillBench:
 
 def bench_skill(request: SkillBench, report: Report) -> list[Table]:
     """Measure and write what is asked for; the tables. Raises PlannerError."""
-    torch_threads()
-    folders: list[Path | None] = [None, *request.policies]
-    policies = [read_policy(request.skill, one) for one in folders]
+    torch.set_num_threads(1)  # batches are small, and runs are many
+    policies = [read_policy(request.skill, one) for one in (None, *request.policies)]
     with alone(request.out, "--out", "a bench"):
         if request.out:
             make_folder(request.out)
@@ -90,7 +98,7 @@ def bench_skill(request: SkillBench, report: Report) -> list[Table]:
             played |= pooled(policies[1:], played)
             tables = [class_table(played, request.seed), condition_table(played, request.seed)]
         if request.out:
-            _write(request, folders, tables, played)
+            _write(request, request.out, policies, tables, played)
     return tables
 
 
@@ -100,9 +108,9 @@ Played = dict[str, dict[str, list[Episode]]]  # episodes by policy or baseline, 
 def _play_all(request: SkillBench, policies: Sequence[Policy], report: Report) -> Played:
     tracker: Any = read_policy("goto", request.goto).module
     guidance: Any = Guidance(tracker)
-    actors: dict[str, tuple[Actor | Policy, Any]] = {}
-    for policy in policies:
-        actors["learnt, shipped" if policy is policies[0] else _name(policy)] = policy, tracker
+    actors: dict[str, tuple[Actor | Policy, Any]] = {
+        name: (policy, tracker) for name, policy in _named(policies).items()
+    }
     actors["contour follower"] = contour_follower, tracker
     actors["contour follower, guidance and PID"] = contour_follower, guidance
     actors["oracle: offset path"] = oracle, tracker
@@ -120,22 +128,24 @@ def _play_all(request: SkillBench, policies: Sequence[Policy], report: Report) -
     return played
 
 
-def _name(policy: Policy) -> str:
-    return f"learnt, {policy.path.parent}"
+def _named(policies: Sequence[Policy]) -> dict[str, Policy]:
+    """Policies by their names in tables; the first one ships."""
+    shipped, *others = policies
+    return {"learnt, shipped": shipped} | {f"learnt, {one.path.parent}": one for one in others}
 
 
 def pooled(policies: Sequence[Policy], played: Played) -> Played:
     """The episodes of policies that were trained alike but for the seed, together."""
-    alike: dict[str, dict[int, str]] = {}
+    alike: dict[Any, dict[int, str]] = {}
     for policy in policies:
         manifest = policy.path.parent / MANIFEST
         settings = read_json(manifest)["configuration"] if manifest.is_file() else {}
         if "seed" in settings:
-            seed = settings.pop("seed")
-            alike.setdefault(compact_json(settings), {})[seed] = _name(policy)
+            seed, name = settings.pop("seed"), f"learnt, {policy.path.parent}"
+            alike.setdefault(tuple(sorted(settings.items())), {})[seed] = name
     found: Played = {}
-    for text, by_seed in alike.items():
-        settings = json.loads(text)
+    for items, by_seed in alike.items():
+        settings = dict(items)
         words = [settings[key] for key in ("recipe", "sampling") if settings.get(key)]
         words += [f"without {term}"] if (term := settings.get("without")) else []
         parts = [played[name] for name in by_seed.values()]
@@ -163,12 +173,15 @@ def class_table(played: Played, seed: int) -> Table:
         for kind in kinds:
             rows.append(_row(kind, [one for one in episodes if one.family == kind], seed))
         rows.append(_row("all", episodes, seed))
-    for policy, lines in _published().items():
+    published = read_csv(Path(__file__).with_name("published.csv"))
+    for policy, lines in groupby(published, key=lambda line: line["policy"]):
         rows.append(row(f"published: {policy}", kind="section"))
         for line in lines:
-            rates = [figure(_number(line[name]), decimals=0) for name in _RATES]
-            errors = figure(_number(line["error"])), figure(_number(line["steps"]), decimals=0)
-            rows.append(row(line["class"], *rates, *errors, kind="published"))
+            cells = [
+                figure(float(line[name]) if line[name] else None, decimals=decimals)
+                for name, decimals in (*((one, 0) for one in _RATES), ("error", 2), ("steps", 0))
+            ]
+            rows.append(row(line["class"], *cells, kind="published"))
     return Table("", COLUMNS, rows, name="classes", title="By shape class.", caption=CAPTION)
 
 
@@ -195,23 +208,9 @@ def _row(name: str, episodes: Sequence[Episode], seed: int) -> TableRow:
     return row(name, *cells, error.cell(), steps.cell(decimals=0))
 
 
-def _published() -> dict[str, list[dict[str, str]]]:
-    """Lines of published.csv by policy."""
-    found: dict[str, list[dict[str, str]]] = {}
-    for line in read_csv(Path(__file__).with_name("published.csv")):
-        found.setdefault(line["policy"], []).append(line)
-    return found
-
-
-def _number(text: str) -> float | None:
-    return float(text) if text else None
-
-
 def _write(
-    request: SkillBench, folders: Sequence[Path | None], tables: Sequence[Table], played: Played
+    request: SkillBench, out: Path, policies: list[Policy], tables: list[Table], played: Played
 ) -> None:
-    assert request.out is not None
-    out = request.out
     write_text(out / "table.md", "\n".join(markdown_table(one) for one in tables))
     for one in tables:
         write_text(out / f"{one.name}.csv", csv_table(one))
@@ -220,9 +219,95 @@ def _write(
         for name, by in played.items()
     }
     write_json(out / "episodes.json", episodes)
-    policies = {str(one or "shipped"): digest(request.skill, one) for one in folders}
-    configuration = {"skill": request.skill, "episodes": request.episodes, "policies": policies}
-    write_json(
-        out / "manifest.json",
-        build_manifest("skill bench", seed=request.seed, configuration=configuration),
+    names = ["shipped", *map(str, request.policies)]
+    digests = {name: sha256_file(one.path) for name, one in zip(names, policies, strict=True)}
+    configuration = {"skill": request.skill, "episodes": request.episodes, "policies": digests}
+    manifest = build_manifest("skill bench", seed=request.seed, configuration=configuration)
+    write_json(out / "manifest.json", manifest)
+
+
+# ------------------------------------------------- GoToXY and StationKeep, in the simulator of missions
+
+
+CURRENTS = {"published current": 1.0, "twice the published current": 2.0}
+AWAY = (5.0, 30.0)  # metres from a goal at the start
+SECONDS, PATIENCE = 60.0, 120.0  # how long a place is held, and how long a way may take
+TRACKED = {
+    "goto": (("arrived % ↑", "waypoint m ↓", "seconds ↓"), "0.93 to 0.97"),
+    "hold": (("stayed % ↑", "holding m ↓", "after 20 s, m ↓"), "0.12 to 0.43"),
+}
+"""Columns, and what was published for the second."""
+TRACKING = (
+    "In the simulator of missions, position by GPS and dead reckoning, errors against the truth;"
+    " means with 95 % intervals (rates: Wilson; means: bootstrap over episodes). Waypoint: the"
+    " distance when a way ends, tolerance 1 m; holding: mean distance over 60 s, from up to 1 m off."
+)
+
+
+def tracking_table(request: SkillBench, policies: Sequence[Policy], report: Report) -> Table:
+    """A section per current, a row per policy and for guidance."""
+    skill, seed, (columns, published) = request.skill, request.seed, TRACKED[request.skill]
+    implementations: dict[str, dict[str, Any]] = {
+        name: {"implementation": f"learnt-{skill}", "policy": str(policy.path.parent)}
+        for name, policy in _named(policies).items()
+    }
+    implementations["guidance and PID"] = {}
+    rows, total, done = list[TableRow](), len(CURRENTS) * len(implementations), 0
+    for current, factor in CURRENTS.items():
+        rows.append(row(current, kind="section"))
+        for name, settings in implementations.items():
+            report(f"{skill} bench", done, total)
+            arrived, *figures = measure(request, settings, factor)
+            rate = wilson(int(arrived.sum()), len(arrived)).cell(scale=100, decimals=0)
+            means = [bootstrap_mean(one.tolist(), range(len(one)), seed) for one in figures]
+            rows.append(row(name, rate, *(one.cell() for one in means)))
+            done += 1
+    report(f"{skill} bench", total, total)
+    shown = figure(None), published, figure(None)
+    rows += [row("published", kind="section"), row("", *shown, kind="published")]
+    return Table("", columns, rows, name=skill, caption=TRACKING)
+
+
+def measure(
+    request: SkillBench, settings: dict[str, Any], factor: float
+) -> tuple[Bools, Floats, Floats]:
+    """Which episodes came to their end, and two figures of each (n,)."""
+    hold, count = request.skill == "hold", request.episodes
+    scene = _scene(count, hold, factor, request.seed)
+    motion, seconds = Motion("hold" if hold else "go", {}), SECONDS if hold else None
+    stay: dict[str, Any] = {"points": ((0.0, 0.0),), "seconds": seconds}
+    job = Job("skill", {}, motion, settings, speed=scene.vessel.speed, **stay)
+    running = Running(Stage("bench", 0, job, (), (), PATIENCE, ()), scene)
+    everyone = np.arange(count)
+    running.start(everyone)
+    ended, active = np.full(count, np.nan), np.ones(count, dtype=bool)
+    errors, off = np.zeros(count), list[Floats]()
+    while active.any() and scene.time < PATIENCE:
+        runs = everyone[active]
+        running.step(runs, scene)
+        scene.advance(active)
+        off.append(np.linalg.norm(scene.pose[:, :2], axis=1))
+        over = runs[running.done(runs)]
+        ended[over], errors[over] = scene.time, off[-1][over]
+        active[over] = False
+    arrived = np.isfinite(ended)
+    if hold:
+        after = np.array(off[: round(SECONDS / scene.seconds)])
+        return arrived, after.mean(axis=0), after[round(20 / scene.seconds) :].mean(axis=0)
+    return arrived, errors[arrived], ended[arrived]
+
+
+def _scene(count: int, hold: bool, factor: float, seed: int) -> Scene:
+    """Vehicles at rest about [0, 0], heading anywhere, in water that moves `factor` times as fast
+    as published.
+    """
+    random, vessel = np.random.default_rng([seed, 17]), published_vessel()
+    world = World(
+        *(vessel, (0.0, 0.0), (), (), {}, (), lambda _start, _goal: True, Faults(), count, seed)
     )
+    world.current = factor * world.current
+    starts, away = np.zeros((count, 4)), (0.0, 1.0) if hold else AWAY
+    far, angle = random.uniform(*away, count), random.uniform(0, 7, count)
+    starts[:, 0], starts[:, 1] = far * np.cos(angle), far * np.sin(angle)
+    starts[:, 3] = random.uniform(-math.pi, math.pi, count)
+    return Scene(world, FastSimulator(vessel, count), starts, Origin(0.0, 0.0), lambda _r, _l: None)

@@ -1,4 +1,6 @@
-"""The vessel of `planner_ft.simulation.fast` with its autopilot in torch: batched, differentiable.
+"""The vessel of `planner_ft.simulation.fast` with its autopilot in torch: batched, differentiable; and
+who drives it to a goal: the policies of GoToXY and StationKeep, which make two speeds of six
+numbers of the goal, and guidance beside them.
 
 A state (B, 8) is x, y in m, yaw in rad, surge, sway in m/s, yaw rate in rad/s over ground in the
 body's axes (REP-103), and the sums of the autopilot's two integrals. Without wind.
@@ -11,10 +13,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 
+from planner_ft.simulation.fast import STEP, Vessel, build_vessel
+from planner_ft.simulation.guidance import BRAKE, SLOW
 from planner_ft.simulation.scene import MOST_YAW
-from planner_ft.simulation.vessel import STEP, Vessel, build_vessel
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import VEHICLE
 
@@ -36,11 +39,6 @@ class Dynamics:
 
     vessel: Vessel
     leak: bool = False
-    seconds: float = STEP
-
-    def start(self, pose: Tensor) -> Tensor:
-        """States (B, 8) at rest of poses (B, 3)."""
-        return torch.cat([pose, pose.new_zeros(len(pose), 5)], dim=1)
 
     def __call__(
         self, state: Tensor, command: Tensor, current: Tensor, limits: Tensor | None = None
@@ -49,7 +47,7 @@ class Dynamics:
         that moves with `current` (B, 2) in m/s; `limits` (B, 2) are lower speed limits than the
         vessel's own.
         """
-        own, dt = self.vessel, self.seconds
+        own, dt = self.vessel, STEP
         speed, turn = (own.speed, own.turn) if limits is None else limits.unbind(-1)
         x, y, yaw, surge, sway, rate, sum_surge, sum_rate = state.unbind(-1)
         want_surge = self._clip(command[:, 0], own.speed if limits is None else speed)
@@ -77,7 +75,7 @@ class Dynamics:
         self, want: Tensor, turn: Tensor, surge: Tensor, rate: Tensor, first: Tensor, second: Tensor
     ) -> tuple[Tensor, Tensor, Tensor, Tensor]:
         """Force ahead in N, moment in N m and the integrals, as `scene.Autopilot` makes them."""
-        own, dt = self.vessel, self.seconds
+        own, dt = self.vessel, STEP
         error, spin = want - surge, turn - rate
         first = torch.where(error.abs() < 0.5, (first + 0.3 * dt * error).clamp(-0.5, 0.5), 0.0)
         second = torch.where(spin.abs() < 0.2, (second + dt * spin).clamp(-0.3, 0.3), 0.0)
@@ -105,3 +103,76 @@ def turned(vector: Tensor, angle: Tensor) -> Tensor:
     cosine, sine = torch.cos(angle), torch.sin(angle)
     x, y = vector.unbind(-1)
     return torch.stack([cosine * x - sine * y, sine * x + cosine * y], dim=-1)
+
+
+HIDDEN = 64
+FAR, NEAR = 10.0, 0.3  # metres at which a position is clipped, and that tell near goals apart
+CLOSE = 1.5  # metres within which the way to a goal says no heading any more
+
+
+def relative(state: Tensor, goal: Tensor) -> Tensor:
+    """The published six numbers (B, 6) of states (B, 8) and goals (B, 3: x, y, heading): position
+    and velocity relative to the goal in the goal's frame, wrapped heading error, yaw rate.
+    """
+    heading = goal[:, 2]
+    place = turned(state[:, :2] - goal[:, :2], -heading)
+    velocity = turned(state[:, 3:5], state[:, 2] - heading)
+    error = wrapped(state[:, 2] - heading)
+    return torch.cat([place, velocity, error[:, None], state[:, 5:6]], dim=1)
+
+
+def aimed(state: Tensor, goal: Tensor) -> Tensor:
+    """Goals (B, 3) whose heading is the way to them, for who only wants to get there; within
+    `CLOSE` the heading is kept.
+    """
+    to = goal[:, :2] - state[:, :2].detach()
+    bearing = torch.atan2(to[:, 1], to[:, 0])
+    heading = torch.where(to.norm(dim=1) > CLOSE, bearing, goal[:, 2])
+    return torch.cat([goal[:, :2], heading[:, None]], dim=1)
+
+
+class Tracker(nn.Module):
+    """Speeds in shares of the limits (B, 2: surge, yaw rate), from six numbers (B, 6)."""
+
+    limits: Tensor
+
+    def __init__(self, limits: tuple[float, float]) -> None:
+        super().__init__()
+        self.register_buffer("limits", torch.tensor(limits))
+        layers = [nn.Linear(9, HIDDEN), nn.Tanh(), nn.Linear(HIDDEN, HIDDEN), nn.Tanh()]
+        self.layers = nn.Sequential(*layers, nn.Linear(HIDDEN, 2), nn.Tanh())
+
+    def forward(self, seen: Tensor) -> Tensor:
+        place, velocity, error, rate = torch.split(seen, [2, 2, 1, 1], dim=1)
+        away = place.norm(dim=1, keepdim=True)
+        far = place / away.clamp_min(FAR)
+        near = place / (away + NEAR)
+        scaled = velocity / self.limits[0]
+        turn = rate / self.limits[1]
+        features = [far, near, scaled, torch.sin(error), torch.cos(error), turn]
+        made: Tensor = self.layers(torch.cat(features, dim=1))
+        return made
+
+    def command(self, state: Tensor, goal: Tensor) -> Tensor:
+        """Commanded surge in m/s and yaw rate in rad/s (B, 2)."""
+        made: Tensor = self(relative(state, goal)) * self.limits
+        return made
+
+
+class Guidance:
+    """Course to the goal by a proportional controller, speed by the distance that is left, as
+    `simulation.guidance` steers to the end of a way.
+    """
+
+    def __init__(self, tracker: Tracker) -> None:
+        self.limits = tracker.limits
+
+    def command(self, state: Tensor, goal: Tensor) -> Tensor:
+        """Commanded surge in m/s and yaw rate in rad/s (B, 2)."""
+        to = goal[:, :2] - state[:, :2]
+        left = to.norm(dim=1)
+        slip = torch.atan2(state[:, 4], state[:, 3].clamp_min(0.3)) * (state[:, 3] > 0.3)
+        error = wrapped(torch.atan2(to[:, 1], to[:, 0]) - state[:, 2] - slip)
+        speed = (SLOW + torch.sqrt(2 * BRAKE * left)).minimum(self.limits[0])
+        turn = (0.9 * error).clamp(-self.limits[1], self.limits[1])
+        return torch.stack([speed * torch.cos(error).clamp(0, 1) ** 2, turn], dim=1)

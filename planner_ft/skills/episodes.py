@@ -14,9 +14,8 @@ import torch
 from torch import Tensor
 
 from planner_ft.skills import geometry
-from planner_ft.skills.dynamics import Dynamics, published_vessel, turned
+from planner_ft.skills.dynamics import Tracker, turned
 from planner_ft.skills.survey import Survey, Task, action_of
-from planner_ft.skills.tracker import Tracker
 
 Actor = Callable[[Survey], Tensor]
 LOOK = 2.5  # metres ahead on the way to which a waypoint is named
@@ -42,7 +41,7 @@ def play(
 ) -> list[Episode]:
     """An episode for each of `families`, all at once, with new objects of a seed."""
     random = np.random.default_rng([seed, 7])
-    world = Survey(task, len(families), Dynamics(published_vessel()), tracker, random, families)
+    world = Survey(task, len(families), tracker, random, families)
     found: list[Episode | None] = [None] * len(families)
     while any(one is None for one in found):
         ended = world.step(actor(world))

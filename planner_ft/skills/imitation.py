@@ -13,13 +13,14 @@ from typing import Any
 import numpy as np
 import torch
 from torch import Tensor
+from torch.optim import Adam
+from torch.optim.lr_scheduler import CosineAnnealingLR
 
-from planner_ft.skills.dynamics import Dynamics, published_vessel
+from planner_ft.skills.dynamics import Tracker
 from planner_ft.skills.episodes import oracle
 from planner_ft.skills.policies import Checkpoint
 from planner_ft.skills.survey import Survey, Task
 from planner_ft.skills.surveyor import Memory, Surveyor
-from planner_ft.skills.tracker import Tracker
 from planner_ft.support.terminal import Report
 
 WIDER: dict[str, Any] = {
@@ -59,14 +60,12 @@ def train(
     """Train our policy; it and the losses."""
     torch.manual_seed(settings.seed)
     pupil = Surveyor("ours", 0.3)
-    optimizer = torch.optim.Adam(pupil.parameters(), lr=settings.rate)
-    schedule = torch.optim.lr_scheduler.CosineAnnealingLR(
-        optimizer, settings.iterations, settings.rate / 20
-    )
+    optimizer = Adam(pupil.parameters(), lr=settings.rate)
+    schedule = CosineAnnealingLR(optimizer, settings.iterations, settings.rate / 20)
     random = torch.Generator().manual_seed(settings.seed)
     drawn = np.random.default_rng([settings.seed, 11])
     task = Task(rounding=settings.rounding, lost=settings.lost, **WIDER)
-    world = Survey(task, settings.environments, Dynamics(published_vessel()), tracker, drawn)
+    world = Survey(task, settings.environments, tracker, drawn)
     memory = pupil.memory = Memory(settings.environments)
     kept = Checkpoint(folder, settings, random, pupil, optimizer, schedule, resume=resume)
     seen, wanted = torch.zeros(0, 132), torch.zeros(0, 2)
@@ -84,8 +83,16 @@ def train(
         new, said = _drive(world, pupil, by_teacher, settings, random)
         seen = torch.cat([seen, new])[-settings.kept :]
         wanted = torch.cat([wanted, said])[-settings.kept :]
-        loss = _learn(pupil, optimizer, seen, wanted, settings, random)
+        total = 0.0
+        for _update in range(settings.updates):
+            some = torch.randint(len(seen), (settings.minibatch,), generator=random)
+            wrong = (pupil(seen[some]) - wanted[some]).square().mean()
+            optimizer.zero_grad()
+            torch.autograd.backward(wrong)
+            optimizer.step()
+            total += float(wrong.detach())
         schedule.step()
+        loss = total / settings.updates
         kept.advance(f"imitation, loss {loss:.4f}", report, {"loss": loss}, more)
     return {"policy": pupil, "losses": kept.log}
 
@@ -104,23 +111,3 @@ def _drive(
         ended = world.step((action + noise).clamp(-1, 1))
         world.reset(torch.nonzero(ended.done)[:, 0].tolist())
     return torch.cat(seen), torch.cat(wanted)
-
-
-def _learn(
-    pupil: Surveyor,
-    optimizer: torch.optim.Optimizer,
-    seen: Tensor,
-    wanted: Tensor,
-    settings: Settings,
-    random: torch.Generator,
-) -> float:
-    """The mean squared error of the actions over some minibatches."""
-    total = 0.0
-    for _update in range(settings.updates):
-        some = torch.randint(len(seen), (settings.minibatch,), generator=random)
-        loss = (pupil(seen[some]) - wanted[some]).square().mean()
-        optimizer.zero_grad()
-        torch.autograd.backward(loss)
-        optimizer.step()
-        total += float(loss.detach())
-    return total / settings.updates

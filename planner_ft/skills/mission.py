@@ -10,18 +10,16 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from planner_ft.simulation.fast import Bools, Floats, Runs, wrapped
-from planner_ft.simulation.guidance import AHEAD, Follow, Movement
-from planner_ft.simulation.navigation import Hold
+from planner_ft.simulation.fast import Bools, Floats, Runs, Vessel, wrapped
+from planner_ft.simulation.guidance import AHEAD, Follow, Hold, Movement
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job
-from planner_ft.simulation.vessel import Vessel
 from planner_ft.skills import geometry
+from planner_ft.skills.dynamics import aimed
 from planner_ft.skills.option import ARRIVED
 from planner_ft.skills.policies import Policy, read_policy
 from planner_ft.skills.survey import OPTION, observation, waypoint
 from planner_ft.skills.surveyor import Memory
-from planner_ft.skills.tracker import aimed
 from planner_ft.support.errors import PlannerError
 
 SURE = 0.3

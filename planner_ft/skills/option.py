@@ -9,9 +9,8 @@ import torch
 from torch import Tensor
 
 from planner_ft.skills import geometry
-from planner_ft.skills.dynamics import Dynamics
-from planner_ft.skills.shapes import POINTS
-from planner_ft.skills.tracker import Tracker, aimed
+from planner_ft.skills.dynamics import Dynamics, Tracker, aimed
+from planner_ft.skills.geometry import POINTS
 
 ARRIVED = 0.25  # metres within which an option's waypoint is reached (published)
 BAND = 0.5  # metres about the stand-off in which a waypoint is rewarded (published)

@@ -15,16 +15,15 @@ from typing import Any
 import torch
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
-from torch import nn
+from torch.nn import Module
 
-from planner_ft.simulation.vessel import Vessel
+from planner_ft.simulation.fast import Vessel
+from planner_ft.skills.dynamics import Tracker, published_vessel
 from planner_ft.skills.surveyor import Surveyor
-from planner_ft.skills.tracker import Tracker
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import (
     atomic_writer,
     compact_json,
-    sha256_file,
     write_json,
     write_jsonl,
     write_text,
@@ -36,6 +35,7 @@ from planner_ft.support.terminal import Report
 SHIPPED = Path(__file__).with_name("policies")
 WEIGHTS, CARD, MANIFEST = "policy.safetensors", "README.md", "manifest.json"
 STATE, LOG = "checkpoint.pt", "log.jsonl"
+FILES = {WEIGHTS, CARD, MANIFEST, STATE, LOG}
 SKILLS = ("goto", "hold", "survey")
 SAME = ("drive", "mass", "drag", "thrust", "track", "length", "width")
 """What a vehicle must share with the one that a policy was trained for."""
@@ -54,7 +54,7 @@ class Policy:
 
     skill: str
     recipe: str
-    module: nn.Module
+    module: Module
     vessel: Mapping[str, Any]
     path: Path
 
@@ -69,31 +69,25 @@ class Policy:
 
 
 def write_policy(
-    folder: Path, skill: str, recipe: str, module: nn.Module, vessel: Vessel, trained: Any
+    folder: Path, skill: str, recipe: str, module: Module, settings: Any, inputs: Any, result: Any
 ) -> None:
-    """Write weights, card and manifest; `trained` has the settings, their seed, and what came."""
-    about = {"skill": skill, "recipe": recipe, "vessel": compact_json(asdict(vessel))}
+    """Write weights, card and manifest: the settings of a training with their seed, the files that
+    it took by their roles, and what came.
+    """
+    named = {"skill": skill, "recipe": recipe}
     with atomic_writer(folder / WEIGHTS, "wb") as stream:
         weights = {name: one.detach().contiguous() for name, one in module.state_dict().items()}
-        stream.write(save(weights, about))
-    settings, result = trained["settings"], trained["result"]
-    inputs: dict[str, Path | str] = {"policy": folder / WEIGHTS, **trained.get("inputs", {})}
-    manifest = build_manifest(
-        "skill",
-        seed=settings["seed"],
-        configuration={"skill": skill, "recipe": recipe, **settings},
-        inputs=inputs,
-        result=result,
-    )
-    manifest["inputs"] = {
-        k: {**v, "path": Path(v["path"]).name} for k, v in manifest["inputs"].items()
-    }
+        stream.write(save(weights, {**named, "vessel": compact_json(asdict(published_vessel()))}))
+    files = {"policy": folder / WEIGHTS, **inputs}
+    about = {"configuration": {**named, **settings}, "inputs": files, "result": result}
+    manifest = build_manifest("skill", seed=settings["seed"], **about)
+    for one in manifest["inputs"].values():
+        one["path"] = Path(one["path"]).name
     write_json(folder / MANIFEST, manifest)
     kept = ", ".join(f"{name} {value}" for name, value in {**settings, **result}.items())
     count = sum(value.numel() for value in module.parameters())
     card = text_template("planner_ft.skills", "card.md.j2")
-    shown = card.render(skill=skill, how=HOW[skill], recipe=recipe, count=count, kept=kept)
-    write_text(folder / CARD, shown + "\n")
+    write_text(folder / CARD, card.render(**named, how=HOW[skill], count=count, kept=kept) + "\n")
 
 
 @functools.cache
@@ -117,21 +111,10 @@ def read_policy(skill: str, folder: Path | None = None) -> Policy:
         module.load_state_dict(weights)
     except RuntimeError as error:
         what = str(error).splitlines()[-1].strip()
-        raise PlannerError(
-            f"{path}: its weights do not fit {skill}: {what}; train it anew"
-        ) from None
+        problem = f"its weights do not fit {skill}: {what}"
+        raise PlannerError(f"{path}: {problem}; train it anew") from None
     module.eval().requires_grad_(False)
     return Policy(skill, about["recipe"], module, json.loads(about["vessel"]), path)
-
-
-def digest(skill: str, folder: Path | None = None) -> str:
-    """SHA-256 of a policy's weights, for manifests."""
-    return sha256_file((folder or SHIPPED / skill) / WEIGHTS)
-
-
-def torch_threads() -> None:
-    """One thread: batches are small, and runs are many."""
-    torch.set_num_threads(1)
 
 
 class Checkpoint:

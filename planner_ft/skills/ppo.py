@@ -15,12 +15,11 @@ import torch
 from torch import Tensor, nn
 from torchrl.objectives.value.functional import generalized_advantage_estimate
 
-from planner_ft.skills.dynamics import Dynamics, published_vessel
+from planner_ft.skills.dynamics import Tracker
 from planner_ft.skills.option import Compiled
 from planner_ft.skills.policies import Checkpoint
 from planner_ft.skills.survey import NUMBERS, Survey, Task
 from planner_ft.skills.surveyor import Surveyor
-from planner_ft.skills.tracker import Tracker
 from planner_ft.support.terminal import Report
 
 L3 = (1 / 7, 1 / 7, 3 / 7, 1 / 7, 1 / 7)  # the published oversampling: the L in 3 of 7 draws
@@ -154,9 +153,7 @@ def train(
     torch.manual_seed(settings.seed)
     learner = Learner(settings)
     drawn = np.random.default_rng([settings.seed, 13])
-    dynamics = Dynamics(published_vessel())
-    many = settings.environments
-    world = Survey(settings.task, many, dynamics, tracker, drawn, compiled=True)
+    world = Survey(settings.task, settings.environments, tracker, drawn, compiled=True)
     random = torch.Generator().manual_seed(settings.seed)
     kept = Checkpoint(folder, settings, random, learner.nets, learner.optimizer, resume=resume)
     best: dict[str, Any] = {"reward": -math.inf, "iteration": 0, "weights": {}}
@@ -168,7 +165,7 @@ def train(
         return {"world": world.snapshot(), "best": best}
 
     while kept.done < settings.iterations and kept.done - best["iteration"] < settings.patience:
-        batch, ended = collect(world, learner, settings.frames // many, random)
+        batch, ended = collect(world, learner, settings.frames // world.count, random)
         reward = float(batch.reward.mean())
         if reward > best["reward"]:
             weights = copy.deepcopy(learner.surveyor.state_dict())
@@ -190,10 +187,10 @@ def collect(
 ) -> tuple[Batch, list[str]]:
     """A batch (environments, options) under the policy, and how episodes ended."""
     shape, outcomes = (world.count, options), list[str]()
-    wide, flags = torch.zeros(*shape, NUMBERS), torch.zeros(*shape, dtype=torch.bool)
-    batch = Batch(
-        *(wide, torch.zeros(*shape, 2), wide.clone(), torch.zeros(shape), flags, flags.clone())
-    )
+    seen, after = torch.zeros(2, *shape, NUMBERS)
+    terminated, done = torch.zeros(2, *shape, dtype=torch.bool)
+    made = torch.zeros(*shape, 2), after, torch.zeros(shape), terminated, done
+    batch = Batch(seen, *made)
     noise = torch.randn(options, world.count, 2, generator=random)
     for at in range(options):
         batch.seen[:, at] = seen = world.observe()

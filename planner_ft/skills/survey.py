@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,10 +20,9 @@ from torch import Tensor
 
 from planner_ft.simulation.fast import Floats
 from planner_ft.skills import geometry
-from planner_ft.skills.dynamics import CURRENT, Dynamics, turned
+from planner_ft.skills.dynamics import CURRENT, Dynamics, Tracker, published_vessel, turned
+from planner_ft.skills.geometry import POINTS, RADIUS, draw_outline, offset_path
 from planner_ft.skills.option import Before, Compiled, Way, advance, judge
-from planner_ft.skills.shapes import POINTS, RADIUS, draw_outline, offset_path
-from planner_ft.skills.tracker import Tracker
 
 OPTION = 15  # time steps of an option at most (published)
 AHEAD, ASIDE = (0.5, 4.0), 3.0
@@ -41,9 +40,9 @@ Cast = Callable[[Tensor, Tensor], Tensor]
 
 @dataclass(frozen=True)
 class Task:
-    """What is drawn, and what is rewarded. `standoff`, `size` (base radius)
-    and `spawn` (distance at the start) in m, `current` in m/s, `lost` the share of
-    rays that a scan loses (in training at most); `rounding` (m) of the teacher's way, if any.
+    """What is drawn, and what is rewarded. `standoff`, `size` (base radius) and `spawn` (distance
+    at the start) in m, `current` in m/s, `lost` the share of rays that a scan loses (in training at
+    most); `rounding` (m) of the teacher's way, if any.
     """
 
     families: tuple[str, ...] = ("circle", "rectangle", "L", "polygon", "abstract")
@@ -71,40 +70,33 @@ class Task:
 
 @dataclass
 class Ended:
-    """What options came to (B,): `reward`, `terminated`, `truncated`, `steps` of time, and at an
-    episode's end what it was: success, collision, lost, late.
+    """What options came to (B,): `reward`, whether episodes were `terminated`, whether they are
+    over, and what they were then: success, collision, lost, late.
     """
 
     reward: Tensor
     terminated: Tensor
-    truncated: Tensor
-    steps: Tensor
-    outcome: list[str | None] = field(default_factory=list)
-
-    @property
-    def done(self) -> Tensor:
-        return self.terminated | self.truncated
+    done: Tensor
+    outcome: list[str | None]
 
 
+@dataclass(eq=False)
 class Survey:
     """B vehicles, each before a structure of its own; `random` draws objects and everything else.
 
-    `families` are those of the vehicles, else each episode draws one; `compiled` costs a minute, and
-    then saves most of a time step of a few vehicles.
+    `given` are the families of the vehicles, else each episode draws one; `compiled` costs a
+    minute, and then saves most of a time step of a few vehicles.
     """
 
-    def __init__(
-        self,
-        task: Task,
-        count: int,
-        dynamics: Dynamics,
-        tracker: Tracker,
-        random: np.random.Generator,
-        families: Sequence[str] | None = None,
-        compiled: bool = False,
-    ) -> None:
-        self.task, self.count, self.dynamics, self.tracker = task, count, dynamics, tracker
-        self.random, self.given = random, families
+    task: Task
+    count: int
+    tracker: Tracker
+    random: np.random.Generator
+    given: Sequence[str] | None = None
+    compiled: bool = False
+
+    def __post_init__(self) -> None:
+        count, self.dynamics = self.count, Dynamics(published_vessel())
         self.family = [""] * count
         self.outline, self.way = torch.zeros(count, POINTS, 2), torch.zeros(count, WAY, 2)
         self.standoff, self.current = torch.zeros(count), torch.zeros(count, 2)
@@ -115,7 +107,7 @@ class Survey:
         self.lap, self.left = torch.zeros(count), torch.zeros(count)
         self.options, self.time = torch.zeros(count), torch.zeros(count)
         self.off, self.length = torch.zeros(count), torch.zeros(count)
-        wrap: Callable[[Any], Callable[..., Any]] = Compiled if compiled else lambda one: one
+        wrap: Callable[[Any], Callable[..., Any]] = Compiled if self.compiled else lambda one: one
         self.advance, self.cast, self.judge = wrap(advance), wrap(geometry.ranges), wrap(judge)
         self.reset(range(count))
 
@@ -146,8 +138,7 @@ class Survey:
         self.family[one], self.standoff[one] = str(family), standoff
         self.outline[one] = torch.as_tensor(outline)
         if task.rounding is not None:
-            way = offset_path(outline, standoff, task.rounding, WAY)
-            self.way[one] = torch.as_tensor(way)
+            self.way[one] = torch.as_tensor(offset_path(outline, standoff, task.rounding, WAY))
         place, along = _spawn(outline, standoff, task.spawn, random)
         yaw = along + random.uniform(-math.pi, math.pi)
         self.state[one] = torch.as_tensor([*place, math.remainder(yaw, 2 * math.pi), *[0.0] * 5])
@@ -207,7 +198,7 @@ class Survey:
         late = ~terminated & ~lap & (self.options >= LONGEST)
         kinds = torch.stack([now.hit, lap, lost, late], dim=1).tolist()
         outcome = [next((n for n, so in zip(NAMES, k, strict=True) if so), None) for k in kinds]
-        return Ended(reward, terminated, lap | late, now.steps, outcome)
+        return Ended(reward, terminated, terminated | lap | late, outcome)
 
 
 def _spawn(
@@ -247,13 +238,6 @@ def observation(
     """The published observation (B, 68): scan (B, 64) in m, time steps that the option had left
     (B,), velocity of states (B, 8), stand-off (B,) in m.
     """
-    reach = geometry.REACH
-    return torch.cat(
-        [
-            (scan / reach).clamp(0, 1),
-            (left / OPTION)[:, None],
-            state[:, 3:5] / limits[:, :1],
-            (standoff / reach)[:, None],
-        ],
-        dim=1,
-    )
+    seen, speed = (scan / geometry.REACH).clamp(0, 1), state[:, 3:5] / limits[:, :1]
+    numbers = (left / OPTION)[:, None], speed, (standoff / geometry.REACH)[:, None]
+    return torch.cat([seen, *numbers], dim=1)

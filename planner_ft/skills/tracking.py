@@ -14,11 +14,12 @@ from pathlib import Path
 from typing import Any
 
 import torch
-from torch import Tensor
+from torch import Generator, Tensor
+from torch.optim import Adam
+from torch.optim.lr_scheduler import CosineAnnealingLR
 
-from planner_ft.skills.dynamics import Dynamics, published_vessel, wrapped
+from planner_ft.skills.dynamics import Dynamics, Tracker, aimed, published_vessel, relative, wrapped
 from planner_ft.skills.policies import Checkpoint
-from planner_ft.skills.tracker import Tracker, aimed, relative
 from planner_ft.support.terminal import Report
 
 
@@ -42,19 +43,12 @@ HOLD = {"skill": "hold", "iterations": 300, "noise": 0.1}
 """What StationKeep's training has otherwise: it stays, so that errors of the position tell."""
 
 
-@dataclass
-class Episode:
-    """Starts and goals of a batch: states (B, 8), goals (B, 3), currents and limits (B, 2)."""
-
-    state: Tensor
-    goal: Tensor
-    current: Tensor
-    limits: Tensor
-
-
-def draw(skill: str, count: int, most: float, random: torch.Generator, turn: float) -> Episode:
-    """Episodes of a skill. A hold starts at its place, the goal's heading against the current, and
-    a way begins up to 25 m off in any direction, its goal's heading along it.
+def draw(
+    skill: str, count: int, most: float, random: Generator, turn: float
+) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+    """Starts of episodes of a skill: states (B, 8), goals (B, 3), currents and limits (B, 2). A
+    hold starts at its place, the goal's heading against the current, and a way begins up to 25 m
+    off in any direction, its goal's heading along it.
     """
 
     def uniform(low: float, high: float) -> Tensor:
@@ -73,7 +67,7 @@ def draw(skill: str, count: int, most: float, random: torch.Generator, turn: flo
     state[:, 5] = uniform(-0.3, 0.3)
     goal = torch.stack([torch.zeros(count), torch.zeros(count), wrapped(heading)], dim=1)
     limits = torch.stack([uniform(0.8, 2.3), uniform(0.8 * turn, turn)], dim=1)
-    return Episode(state, goal, current, limits)
+    return state, goal, current, limits
 
 
 def cost(skill: str, state: Tensor, goal: Tensor, made: Tensor, before: Tensor) -> Tensor:
@@ -93,11 +87,9 @@ def train(settings: Settings, folder: Path, resume: bool, report: Report) -> dic
     torch.manual_seed(settings.seed)
     vessel = published_vessel()
     policy = Tracker((vessel.speed, vessel.turn))
-    optimizer = torch.optim.Adam(policy.parameters(), lr=settings.rate)
-    schedule = torch.optim.lr_scheduler.CosineAnnealingLR(
-        optimizer, settings.iterations, settings.rate / 30
-    )
-    random = torch.Generator().manual_seed(settings.seed)
+    optimizer = Adam(policy.parameters(), lr=settings.rate)
+    schedule = CosineAnnealingLR(optimizer, settings.iterations, settings.rate / 30)
+    random = Generator().manual_seed(settings.seed)
     kept = Checkpoint(folder, settings, random, policy, optimizer, schedule, resume=resume)
     dynamics = Dynamics(vessel, leak=True)
     while kept.done < settings.iterations:
@@ -108,16 +100,12 @@ def train(settings: Settings, folder: Path, resume: bool, report: Report) -> dic
 
 
 def _iterate(
-    settings: Settings,
-    policy: Tracker,
-    optimizer: torch.optim.Optimizer,
-    dynamics: Dynamics,
-    random: torch.Generator,
+    settings: Settings, policy: Tracker, optimizer: Adam, dynamics: Dynamics, random: Generator
 ) -> float:
     """One batch of episodes, a step of the optimizer for every window; the mean cost."""
-    turn = dynamics.vessel.turn
-    batch = draw(settings.skill, settings.batch, settings.current, random, turn)
-    state, before, total = batch.state, torch.zeros(settings.batch, 2), 0.0
+    skill, turn = settings.skill, dynamics.vessel.turn
+    state, goal, current, limits = draw(skill, settings.batch, settings.current, random, turn)
+    before, total = torch.zeros(settings.batch, 2), 0.0
     off = torch.randn(settings.batch, 2, generator=random) * settings.noise
     for _window in range(settings.steps // settings.window):
         state, before, loss = state.detach(), before.detach(), torch.zeros(())
@@ -125,11 +113,11 @@ def _iterate(
             drift = torch.randn(off.shape, generator=random) * settings.noise
             off = 0.98 * off + 0.2 * drift
             believed = torch.cat([state[:, :2] + off, state[:, 2:]], dim=1)
-            if settings.skill == "goto":
-                batch.goal = aimed(believed, batch.goal)
-            made = policy(relative(believed, batch.goal))
-            state = dynamics(state, made * policy.limits, batch.current, batch.limits)
-            loss = loss + cost(settings.skill, state, batch.goal, made, before).mean()
+            if skill == "goto":
+                goal = aimed(believed, goal)
+            made = policy(relative(believed, goal))
+            state = dynamics(state, made * policy.limits, current, limits)
+            loss = loss + cost(skill, state, goal, made, before).mean()
             before = made
         optimizer.zero_grad()
         torch.autograd.backward(loss / settings.window)

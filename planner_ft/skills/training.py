@@ -8,19 +8,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from planner_ft.skills.dynamics import published_vessel
-from planner_ft.skills.policies import (
-    CARD,
-    LOG,
-    MANIFEST,
-    SHIPPED,
-    SKILLS,
-    STATE,
-    WEIGHTS,
-    read_policy,
-    torch_threads,
-    write_policy,
-)
+import torch
+
+from planner_ft.skills.policies import FILES, SKILLS, WEIGHTS, read_policy, write_policy
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import make_folder
@@ -96,12 +86,11 @@ def train_skill(request: SkillTraining, report: Report) -> dict[str, Any]:
     with alone(request.out, "--out", "a training"):
         make_folder(request.out)
         _check_free(request)
-        torch_threads()
-        trained = _train(request, settings, report)
+        torch.set_num_threads(1)  # batches are small
+        trained, inputs = _train(request, settings, report)
         result = {"iterations": len(trained["losses"]), **trained.get("result", {})}
-        kept = {"settings": asdict(settings), "result": result, "inputs": trained.get("inputs", {})}
         recipe = request.recipe if request.skill == "survey" else "ours"
-        made = trained["policy"], published_vessel(), kept
+        made = trained["policy"], asdict(settings), inputs, result
         write_policy(request.out, request.skill, recipe, *made)
     return result
 
@@ -122,19 +111,19 @@ def train_all(root: Path, report: Report, *, seed: int, resume: bool, overwrite:
         train_skill(request, named)
 
 
-def _train(request: SkillTraining, settings: Any, report: Report) -> dict[str, Any]:
+def _train(request: SkillTraining, settings: Any, report: Report) -> Any:
+    """What a recipe made, and the files that it took by their roles."""
     where, train = (request.out, request.resume, report), request.module.train
     if request.skill != "survey":
-        return dict(train(settings, *where))
-    trained = train(settings, read_policy("goto", request.goto).module, *where)
-    return {**trained, "inputs": {"goto": (request.goto or SHIPPED / "goto") / WEIGHTS}}
+        return train(settings, *where), {}
+    goto = read_policy("goto", request.goto)
+    return train(settings, goto.module, *where), {"goto": goto.path}
 
 
 def _check_free(request: SkillTraining) -> None:
     """Refuse a folder with another training, and with other files."""
-    ours = {WEIGHTS, CARD, MANIFEST, STATE, LOG}
     found = {path.name for path in request.out.iterdir() if not path.name.startswith(".")}
-    if foreign := sorted(found - ours):
+    if foreign := sorted(found - FILES):
         problem = f"holds {foreign[0]}, which is not of a training of a skill"
         raise PlannerError(f"--out {request.out}: {problem}; give another folder")
     if found and not (request.resume or request.overwrite):

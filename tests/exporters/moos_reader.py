@@ -1,7 +1,7 @@
 """A strict reader of behaviour files, and a helm that takes movements as done.
 
 No registry has a reader of MOOS-IvP's behaviour files. This one follows the helm's documentation
-and its parser (the sources are named in planner_ft.exporters.moos_text): continued lines are
+and its parser (the sources are named in planner_ft.exporters.moos_behaviours): continued lines are
 joined, "//" begins a comment, a statement stands on a line of its own.
 """
 

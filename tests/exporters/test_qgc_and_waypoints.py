@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from planner_ft.exporters import DRAFT, Origin, PlanExport, load_format
-from planner_ft.exporters.mavlink import HEADER
+from planner_ft.exporters.mission import HEADER
 
 from .plans import DRONE, MAST, USV, document, origins, step, task
 from .readers import command, load_waypoints, local_waypoints, plan_items

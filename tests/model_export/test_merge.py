@@ -19,7 +19,6 @@ from planner_ft.candidates.registry import VOCABULARY_KEY
 from planner_ft.cli import main
 from planner_ft.model_export import Exported, ExportSettings, export
 from planner_ft.model_export import check as check_module
-from planner_ft.model_export import merge as merge_module
 from planner_ft.prompts.render import TODAY, render_prompt, with_fixed_date
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
@@ -103,7 +102,6 @@ def test_nothing_is_written_when_an_answer_changes(
     exported: Callable[..., Exported], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Merging is made wrong: the adapter is dropped."""
-    monkeypatch.setattr(merge_module, "merged", lambda model: model.unload())
     monkeypatch.setattr("planner_ft.model_export.run.merged", lambda model: model.unload())
     with pytest.raises(PlannerError, match=r"[12] of 2 answers differ .* nothing was written"):
         exported()

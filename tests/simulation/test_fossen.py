@@ -8,9 +8,16 @@ import numpy as np
 import pytest
 
 from planner_ft.document.vehicle import load_vehicle
-from planner_ft.simulation.fast import SIMULATORS, Floats, Simulator, build_simulator
+from planner_ft.simulation.fast import (
+    SIMULATORS,
+    STEP,
+    Floats,
+    Simulator,
+    Vessel,
+    build_simulator,
+    build_vessel,
+)
 from planner_ft.simulation.scene import Autopilot
-from planner_ft.simulation.vessel import STEP, Vessel, build_vessel
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from tests.documents import DRONE, USV

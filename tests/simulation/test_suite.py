@@ -136,9 +136,11 @@ def test_a_broken_suite_is_refused(
 def test_the_bundled_suite_holds_the_published_commands() -> None:
     suite = read_suite(BUNDLED)
     told = [(one["mission"], one["command"], one["runs"]) for one in output.published_missions()]
-    assert [(one.published, one.command, str(one.runs)) for one in suite.missions] == told
-    field = suite.missions[-1]
-    assert len(set(field.starts)) == 8 and field.tolerance == 2
+    assert [
+        (one.published, one.command, str(one.asked.get("runs", 20))) for one in suite.missions
+    ] == told
+    field = suite.missions[-1].asked
+    assert len(set(field["starts"])) == 8 and field["tolerance"] == 2
 
 
 def test_a_suite_says_everything_itself(

@@ -22,7 +22,8 @@ def test_it_moves_as_the_simulator_of_missions() -> None:
     simulator.reset(pose)
     current, still = random.normal(0, 0.1, (COUNT, 2)), np.zeros((COUNT, 2))
     dynamics = Dynamics(own)
-    state = dynamics.start(torch.tensor(pose[:, [0, 1, 3]]))
+    state = torch.zeros(COUNT, 8, dtype=torch.float64)
+    state[:, :3] = torch.tensor(pose[:, [0, 1, 3]])
     for step in range(120):
         if step % 20 == 0:
             command = np.zeros((COUNT, 4))

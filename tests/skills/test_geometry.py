@@ -10,7 +10,7 @@ import shapely
 import torch
 
 from planner_ft.skills import geometry
-from planner_ft.skills.shapes import FAMILIES, draw_outline, offset_path
+from planner_ft.skills.geometry import FAMILIES, draw_outline, offset_path
 
 RANDOM = np.random.default_rng(3)
 OUTLINES = [draw_outline(family, RANDOM) for family in FAMILIES]

@@ -10,13 +10,12 @@ import pytest
 import torch
 from safetensors.torch import save_file
 
-from planner_ft.skills.bench import SkillBench
+from planner_ft.skills.bench import SkillBench, measure
 from planner_ft.skills.dynamics import published_vessel
 from planner_ft.skills.episodes import play
+from planner_ft.skills.geometry import PUBLISHED
 from planner_ft.skills.policies import SHIPPED, SKILLS, read_policy
-from planner_ft.skills.shapes import PUBLISHED
 from planner_ft.skills.survey import Task
-from planner_ft.skills.tracking_bench import measure
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_file
 

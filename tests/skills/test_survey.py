@@ -9,20 +9,19 @@ import numpy as np
 import pytest
 import torch
 
-from planner_ft.skills.dynamics import Dynamics, published_vessel
+from planner_ft.skills.dynamics import Guidance, Tracker
 from planner_ft.skills.episodes import contour_follower, oracle, play
+from planner_ft.skills.geometry import PUBLISHED
 from planner_ft.skills.option import Compiled
-from planner_ft.skills.shapes import PUBLISHED
 from planner_ft.skills.survey import Survey, Task, action_of, waypoint
 from planner_ft.skills.surveyor import Memory, Surveyor
-from planner_ft.skills.tracker import Guidance, Tracker
 
 GUIDANCE = Guidance(Tracker((2.3, 0.43)))
 
 
 def world(count: int, task: Task = Task(), families: Sequence[str] | None = None) -> Survey:  # noqa: B008
     random = np.random.default_rng(5)
-    return Survey(task, count, Dynamics(published_vessel()), GUIDANCE, random, families)  # type: ignore[arg-type]
+    return Survey(task, count, GUIDANCE, random, families)  # type: ignore[arg-type]
 
 
 def test_an_observation_is_what_was_published() -> None:
@@ -40,11 +39,13 @@ def test_an_option_ends_at_its_waypoint_or_after_15_steps() -> None:
     one = world(8)
     far, near = torch.ones(8, 2) * torch.tensor([1.0, 0.0]), torch.full((8, 2), -1.0)
     near[:, 1] = 0.0
-    assert one.step(far).steps.tolist() == [15.0] * 8
+    one.step(far)
+    assert one.time.tolist() == [15.0] * 8 and one.left.tolist() == [0.0] * 8
     for _option in range(6):
-        ended = one.step(near)
-    assert (ended.steps < 15).sum() >= 6
-    assert torch.equal(one.left, 15 - ended.steps)
+        before = one.time
+        one.step(near)
+    assert (one.time - before < 15).sum() >= 6
+    assert torch.equal(one.left, 15 - (one.time - before))
 
 
 def test_actions_and_waypoints_are_inverse() -> None:
