@@ -26,13 +26,8 @@ NO_NOTES = ("title", "task_prompt", "parameters", "waits_for", "skill_sequence")
 """Keys of a task that are more than words in a comment."""
 
 
-def write(plan: PlanExport) -> Written:
-    """The tree of a plan, complete or with open places."""
-    return _Tree(plan).written()
-
-
 class _Tree:
-    """Builds the file and keeps account of it."""
+    """Builds the tree of a plan, complete or with open places, and keeps account of it."""
 
     def __init__(self, plan: PlanExport) -> None:
         self.plan, self.vocabulary, self.ledger = plan, plan.vocabulary, plan.ledger()
@@ -92,17 +87,15 @@ class _Tree:
         entries = {name: f"{{{name}}}" for name in names}
         if not waits:
             ports = self.nodes.tasks[self.tasks[index]["title"]].ports
-            given = {**self._parameters(index), **self._prompt(index)}
-            entries |= {ports[name].name: text for name, text in given.items()}
+            entries |= {ports[name].name: text for name, text in self._given(index).items()}
         label = self.labels[index]
         _add(sequence, "SubTree", **{"ID": self.trees[label], "name": printable(label), **entries})
 
-    def _prompt(self, index: int) -> dict[str, str]:
-        path = ("tasks", index, "task_prompt")
-        return {"task_prompt": self._value(path, self.tasks[index]["task_prompt"])}
-
-    def _parameters(self, index: int) -> dict[str, str]:
-        return self._values(("tasks", index, "parameters"), self.tasks[index]["parameters"])
+    def _given(self, index: int) -> dict[str, str]:
+        """The parameters and the prompt of a task, as attributes."""
+        task, at = self.tasks[index], ("tasks", index)
+        prompt = self._value((*at, "task_prompt"), task["task_prompt"])
+        return {**self._values((*at, "parameters"), task["parameters"]), "task_prompt": prompt}
 
     def _values(self, at: Path, parameters: Entry) -> dict[str, str]:
         return {name: self._value((*at, name), value) for name, value in parameters.items()}
@@ -139,7 +132,7 @@ class _Tree:
         """The task as one leaf, with its place from the blackboard while that is open."""
         task, at = self.tasks[index], ("tasks", index)
         waits = self._needed_by(index)
-        values = {**self._prompt(index), **self._parameters(index)}
+        values = {"task_prompt": "", **self._given(index)}
         for name, value in task["parameters"].items():
             if waits and value == list(self.vocabulary.unresolved):
                 values[name] = f"{{{self.places[waits[0]]}}}"
@@ -219,4 +212,5 @@ def _add_comments(parent: Element, lines: Iterable[str]) -> None:
         parent.append(ElementTree.Comment(f" {words} "))
 
 
-FORMAT = Format("bt", ".xml", "behaviour tree for BehaviorTree.CPP 4 (Groot2)", False, write)
+ABOUT = "behaviour tree for BehaviorTree.CPP 4 (Groot2)"
+FORMAT = Format("bt", ".xml", ABOUT, False, lambda plan: _Tree(plan).written())

@@ -53,11 +53,14 @@ class _Drawing:
         for number, task in enumerate(self.document["tasks"], start=1):
             legs = [leg for leg in track.legs if leg.task == task["id"] and leg.points]
             yield self._task(number, task, legs)
-            yield from map(self._waypoint, legs)
+            for leg in legs:
+                words: Feature = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill}
+                words |= {"motion": leg.kind, "metres": leg.metres, "seconds": leg.seconds}
+                yield self._feature("waypoint", [leg.points[-1]], words)
             yield from self._grid(task, legs)
         for target in track.targets:
             points = [target.position] if target.position is not None else []
-            words: Feature = {"name": target.name, "task": target.task, "located": bool(points)}
+            words = {"name": target.name, "task": target.task, "located": bool(points)}
             yield self._feature("target", points, words)
         for boundary in track.boundaries:
             words = {"task": boundary.task, "step": boundary.step + 1}
@@ -65,11 +68,9 @@ class _Drawing:
         if area:
             yield self._feature("area", area, {}, ring=True)
         for circle in track.circles:
-            disc = shapely.Point(circle.center).buffer(
-                max(circle.radius, 0.001), quad_segs=CORNERS // 4
-            )
-            corners = disc.exterior.coords[:-1]
-            yield self._feature("stand-off", corners, asdict(circle), ring=True)
+            radius = max(circle.radius, 0.001)
+            disc = shapely.Point(circle.center).buffer(radius, quad_segs=CORNERS // 4)
+            yield self._feature("stand-off", disc.exterior.coords[:-1], asdict(circle), ring=True)
 
     def _plan(self) -> Feature:
         words: Feature = {"name": self.plan.name, "approval": self.plan.mark}
@@ -84,11 +85,6 @@ class _Drawing:
             points += leg.points if leg.points[:1] != tuple(points[-1:]) else leg.points[1:]
         words = {key: task[key] for key in TABLE["task"] if key in task}
         return self._feature("task", points, {"task": task["id"], "number": number, **words})
-
-    def _waypoint(self, leg: Leg) -> Feature:
-        words: Feature = {"task": leg.task, "step": leg.step + 1, "skill": leg.skill}
-        words |= {"motion": leg.kind, "metres": leg.metres, "seconds": leg.seconds}
-        return self._feature("waypoint", [leg.points[-1]], words)
 
     def _grid(self, task: dict[str, Any], legs: Sequence[Leg]) -> Iterator[Feature]:
         """The area that the lanes of a survey span."""

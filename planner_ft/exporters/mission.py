@@ -39,8 +39,8 @@ FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3  # MAV_FRAME valu
 SURFACE_BOAT, QUADROTOR = 11, 2  # MAV_TYPE values
 LONGEST_HOLD = 32767
 WIDEST_TURN = 120.0  # degrees that one item turns at most: the vehicle takes the shorter way
-REASONS, BY_MOTION = TABLES["mission"]["reasons"], TABLES["mission"]["motion"]
-WORDS: str = TABLES["mission"]["words"]
+TABLE: dict[str, Any] = TABLES["mission"]
+REASONS, BY_MOTION, WORDS = TABLE["reasons"], TABLE["motion"], TABLE["words"]
 
 Carried = tuple[tuple[str, ...], str] | None
 """The roles of a skill's parameters that its items hold, and in which form; None: no item."""
@@ -134,14 +134,12 @@ class Mission:
         fences: dict[tuple[Point, ...], None] = {}
         for path, corners in self.boundaries:
             polygon = shapely.Polygon(corners)
-            if not polygon.is_valid:
-                self.ledger.lose(*path, why=TABLES["mission"]["crossed"])
-            elif not polygon.covers(way):
-                self.ledger.lose(*path, why=TABLES["mission"]["left"])
-            else:
-                self.ledger.carry(*path, form=TABLES["mission"]["fence"])
-                ring = shapely.orient_polygons(polygon, exterior_cw=True).exterior
-                fences[tuple(ring.coords)[:-1]] = None
+            if not polygon.is_valid or not polygon.covers(way):
+                self.ledger.lose(*path, why=TABLE["left" if polygon.is_valid else "crossed"])
+                continue
+            self.ledger.carry(*path, form=TABLE["fence"])
+            ring = shapely.orient_polygons(polygon, exterior_cw=True).exterior
+            fences[tuple(ring.coords)[:-1]] = None
         self.fences = tuple(tuple(self.place(*corner) for corner in corners) for corners in fences)
 
     def _change_speed(self, task: dict[str, Any], at: Path) -> None:
@@ -253,7 +251,6 @@ class Mission:
 HEADER = "QGC WPL 110"
 ARDUPILOT = 3  # MAV_AUTOPILOT value
 RELATIVE = 1  # QGroundControl's altitude mode: above home
-TABLE: dict[str, str] = TABLES["mission"]
 
 
 def write_qgc(plan: PlanExport) -> Written:
@@ -261,7 +258,7 @@ def write_qgc(plan: PlanExport) -> Written:
     mission = build_mission(plan, fences=True)
     mission.ledger.carry("vehicle", "cruise_speed", form=TABLE["speed"])
     mission.ledger.carry("command", form=TABLE["command"])
-    ours = {"name": plan.name, "approval": plan.mark}
+    ours, speed = {"name": plan.name, "approval": plan.mark}, mission.vehicle["cruise_speed"]
     ours |= {key: plan.document[key] for key in ("digest", "command")}
     fences = [{"version": 1, "inclusion": True, "polygon": fence} for fence in mission.fences]
     content = {
@@ -269,7 +266,16 @@ def write_qgc(plan: PlanExport) -> Written:
         "version": 1,
         "groundStation": "QGroundControl",
         "planner_ft": ours,
-        "mission": _qgc_mission(mission),
+        "mission": {
+            "version": 2,
+            "firmwareType": ARDUPILOT,
+            "vehicleType": mission.vehicle_type,
+            "globalPlanAltitudeMode": RELATIVE,
+            "cruiseSpeed": speed,
+            "hoverSpeed": speed,
+            "plannedHomePosition": [*mission.home, 0],
+            "items": [_qgc_item(number, item) for number, item in enumerate(mission.items, 1)],
+        },
         "geoFence": {"version": 2, "circles": [], "polygons": fences},
         "rallyPoints": {"version": 2, "points": []},
     }
@@ -286,20 +292,6 @@ def write_waypoints(plan: PlanExport) -> Written:
         values = [f"{value:.9f}" for value in item.values]
         lines.append("\t".join([*map(str, fields), *values, "1"]))
     return Written("\n".join(lines) + "\n", mission.ledger.close(TABLE["no_fences"]))
-
-
-def _qgc_mission(mission: Mission) -> dict[str, Any]:
-    speed = mission.vehicle["cruise_speed"]
-    return {
-        "version": 2,
-        "firmwareType": ARDUPILOT,
-        "vehicleType": mission.vehicle_type,
-        "globalPlanAltitudeMode": RELATIVE,
-        "cruiseSpeed": speed,
-        "hoverSpeed": speed,
-        "plannedHomePosition": [*mission.home, 0],
-        "items": [_qgc_item(number, item) for number, item in enumerate(mission.items, 1)],
-    }
 
 
 def _qgc_item(number: int, item: MissionItem) -> dict[str, Any]:

@@ -31,13 +31,10 @@ from planner_ft.vocabulary.plans import step_skills
 DEFAULT_SPEED = 1.0  # metres per second where the plan's vehicle says none
 
 
-def write(plan: PlanExport) -> Written:
-    """The behaviour file of a plan, up to the first task whose movement is not known."""
-    return _File(plan).written()
-
-
 class _File:
-    """Builds the file and keeps account of it. Movements are numbered from 1."""
+    """Builds the behaviour file of a plan, up to the first task whose movement is not known, and
+    keeps account of it. Movements are numbered from 1.
+    """
 
     def __init__(self, plan: PlanExport) -> None:
         self.plan, self.document, self.vocabulary = plan, plan.document, plan.vocabulary
@@ -175,10 +172,10 @@ class _File:
             value = motion.value("polygon" if motion.kind == "boundary" else "distance", given)
             stands, form = guard_form(motion.kind, value)
             return form, (motion.kind, value) if stands else None
-        changed = any(
-            quoted(one) != f'"{one}"' for one in (skill["name"], *map(str, given.values()))
-        )
+        words = skill["name"], *map(str, given.values())
+        changed = any(quoted(one) != f'"{one}"' for one in words)
         return f"{TABLE['flag']}; {TABLE['changed']}" if changed else TABLE["flag"], None
 
 
-FORMAT = Format("moos", ".bhv", "behaviour file for the helm of MOOS-IvP", False, write)
+ABOUT = "behaviour file for the helm of MOOS-IvP"
+FORMAT = Format("moos", ".bhv", ABOUT, False, lambda plan: _File(plan).written())

@@ -5,14 +5,14 @@ file and the report of its losses.
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from planner_ft.document import read_document
 from planner_ft.exporters.formats import DRAFT, Format, PlanExport, known_formats, load_format
-from planner_ft.exporters.ledger import MOVEMENT, Account, Loss, ranges
+from planner_ft.exporters.ledger import MOVEMENT, Account, ranges
 from planner_ft.exporters.ledger import Path as Place
 from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.review.approval import approval_of
@@ -81,12 +81,11 @@ def export_plan(settings: PlanExportSettings) -> list[ExportedPlan]:
             made.append(chosen.write(plan))
         except PlannerError as error:
             raise PlannerError(f"--format {chosen.name}: {error}") from error
-    done = []
+    done, where = [], " ".join(origin_words(plan))
     for chosen, file, written in zip(formats, files, made, strict=True):
         report = file.with_name(file.name + REPORT)
         write_text(file, written.text)
         write_text(report, loss_report(plan, chosen, file.name, written.account))
-        where = " ".join(origin_words(plan))
         done.append(ExportedPlan(chosen, file, report, written.account, where))
     return done
 
@@ -189,13 +188,19 @@ def loss_report(plan: PlanExport, written: Format, file: str, account: Account) 
     """The report as Markdown."""
     about = [f"{written.description}.", f"{plan.mark}.", *origin_words(plan)]
     parts = [f"# What {_cell(file)} does not hold", " ".join(map(_cell, about))]
-    stops = [one for one in (*account.lost, *account.changed) if one.stops]
-    parts += [loss_summary(account) + ".", *_section("Stops or diverts the mission", "Why", stops)]
-    for title, column, losses in (
-        ("Lost", "Why", account.lost),
-        ("Carried in another form", "How", account.changed),
+    parts.append(loss_summary(account) + ".")
+    lost, changed = account.lost, account.changed
+    for title, column, losses, stops in (
+        ("Stops or diverts the mission", "Why", (*lost, *changed), True),
+        ("Lost", "Why", lost, False),
+        ("Carried in another form", "How", changed, False),
     ):
-        parts += _section(title, column, [one for one in losses if not one.stops])
+        chosen = [one for one in losses if one.stops == stops]
+        rows = [
+            f"| {one.task or 'plan'} | {_cell(one.what)} | {_cell(one.why)} |" for one in chosen
+        ]
+        table = "\n".join([f"| Task | What | {column} |", "|---|---|---|", *rows])
+        parts += [f"## {title}", table] if rows else []
     return "\n\n".join(parts) + "\n"
 
 
@@ -205,12 +210,6 @@ def origin_words(plan: PlanExport) -> list[str]:
         return []
     doubtful = doubt(plan.document["command"], plan.origin)
     return [f"[0, 0] lies at {plan.origin}.", *([doubtful] if doubtful else [])]
-
-
-def _section(title: str, column: str, losses: Sequence[Loss]) -> list[str]:
-    rows = [f"| {one.task or 'plan'} | {_cell(one.what)} | {_cell(one.why)} |" for one in losses]
-    table = "\n".join([f"| Task | What | {column} |", "|---|---|---|", *rows])
-    return [f"## {title}", table] if losses else []
 
 
 def _cell(text: str) -> str:
