@@ -228,8 +228,7 @@ def local_answers(folder: Path, arguments: argparse.Namespace, path: Path) -> di
     """The texts of greedy answers in float32 by id, also written as predictions."""
     from planner_ft.candidates import resolve_candidate
     from planner_ft.candidates.loading import load_tokenizer
-    from planner_ft.model_export.check import Answers
-    from planner_ft.model_export.check import load_full
+    from planner_ft.model_export.check import Answers, load_full
     from planner_ft.support.files import read_jsonl, write_jsonl
     from planner_ft.vocabulary import load_vocabulary
 

@@ -62,31 +62,27 @@ FIXED = {
 """The nodes that every plan needs: StopCondition, HandleFailure, ReportOutput, LocatePlace."""
 
 
-@dataclass(frozen=True)
 class Nodes:
-    """A node per skill by name, and per task by title, which plans and runs the task's skills."""
+    """A node per skill by name, and per task by title, which plans and runs the task's skills;
+    `all` that whoever runs a tree implements.
+    """
 
-    skills: Mapping[str, Node]
-    tasks: Mapping[str, Node]
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        taken = {*TABLE["built_in"].split(), *FIXED}
+        ids = plain_names([skill.name for skill in vocabulary.skills], taken)
+        self.skills = {
+            one.name: Node(ids[one.name], one.description, _ports(one)) for one in vocabulary.skills
+        }
+        taken |= set(ids.values())
+        ids = plain_names([f"Plan{task.title}" for task in vocabulary.tasks], taken)
+        self.tasks = {
+            one.title: Node(ids[f"Plan{one.title}"], TABLE["plan"] + one.description, _ports(one))
+            for one in vocabulary.tasks
+        }
+        self.all = (*self.skills.values(), *self.tasks.values(), *FIXED.values())
 
-    @property
-    def all(self) -> tuple[Node, ...]:
-        """Every node that whoever runs a tree implements."""
-        return (*self.skills.values(), *self.tasks.values(), *FIXED.values())
 
-
-@functools.lru_cache(maxsize=16)
-def nodes_of(vocabulary: Vocabulary) -> Nodes:
-    """The nodes of a vocabulary."""
-    taken = {*TABLE["built_in"].split(), *FIXED}
-    ids = plain_names([skill.name for skill in vocabulary.skills], taken)
-    skills = {s.name: Node(ids[s.name], s.description, _ports(s)) for s in vocabulary.skills}
-    ids = plain_names([f"Plan{task.title}" for task in vocabulary.tasks], {*taken, *ids.values()})
-    tasks = {
-        task.title: Node(ids[f"Plan{task.title}"], TABLE["plan"] + task.description, _ports(task))
-        for task in vocabulary.tasks
-    }
-    return Nodes(skills, tasks)
+nodes_of = functools.lru_cache(maxsize=16)(Nodes)
 
 
 def model_element(nodes: Nodes) -> ElementTree.Element:

@@ -38,10 +38,9 @@ Settings = Sequence[tuple[str, str]]
 def block(kind: str, name: str, settings: Settings) -> list[str]:
     """The lines of a behaviour such as BHV_Waypoint, broken where the helm joins them again."""
     lines = [f"  {key} = {value}" for key, value in (("name", name), *settings)]
-    cuts = (range(0, len(line), LONGEST_LINE) for line in lines)
     parts = (
-        "\\\n".join(line[start : start + LONGEST_LINE] for start in found)
-        for line, found in zip(lines, cuts, strict=True)
+        "\\\n".join(line[at : at + LONGEST_LINE] for at in range(0, len(line), LONGEST_LINE))
+        for line in lines
     )
     return [f"Behavior = {kind}", "{", *parts, "}"]
 
@@ -112,9 +111,7 @@ class Move:
 
 
 def move_of(action: Action, cruise_speed: float) -> Move | None:
-    """The behaviours of a movement, None where the plan does not say enough for one. Metres,
-    seconds.
-    """
+    """The behaviours of a movement, None where the plan says too little. Metres, seconds."""
     leg, given, motion = action.leg, action.given, action.motion
     speed = leg.metres / leg.seconds if leg and leg.metres and leg.seconds else cruise_speed
     if not action.step:

@@ -151,17 +151,19 @@ PLAIN_ROPE = ("default", "llama3")
 LLAMA_3_ROPE = "low_freq_factor high_freq_factor factor original_max_position_embeddings"
 
 
-def check_architecture(folder: Path) -> str:
-    """llama.cpp's name of the folder's architecture. Raises PlannerError when it has none here."""
+def check_architecture(folder: Path) -> tuple[str, dict[str, Any], Dimensions]:
+    """llama.cpp's name of the folder's architecture, its config and its sizes. Raises PlannerError
+    when it has none here.
+    """
     config = read_config(folder)
-    names = config.get("architectures") or []
+    names, sizes = config.get("architectures") or [], Dimensions.from_config(config)
     found = next((ARCHITECTURES[name] for name in names if name in ARCHITECTURES), None)
     rope = _rope(config).get("rope_type", "default")
     plain = rope in PLAIN_ROPE and config.get("hidden_act") == "silu"
-    if found is None or not plain or Dimensions.from_config(config) is None:
+    if found is None or not plain or sizes is None:
         what = f"architecture {config.get('architectures')} with positions of type {rope}"
         raise PlannerError(f"{folder}: {what} {NOT_HERE}")
-    return found
+    return found, config, sizes
 
 
 def write_gguf(
@@ -169,14 +171,16 @@ def write_gguf(
 ) -> None:
     """Write weights and tokenizer of a transformers folder to `path`. Raises PlannerError."""
     gguf = import_gguf()
-    architecture, config = check_architecture(folder), read_config(folder)
+    architecture, config, sizes = check_architecture(folder)
     half, types = outtype == "f16", gguf.LlamaFileType
     writer = gguf.GGUFWriter(str(path), architecture)
     writer.add_name(name)
     writer.add_file_type(types.MOSTLY_F16 if half else types.ALL_F32)
-    _write_settings(writer, config, architecture)
+    _write_settings(writer, config, sizes)
+    if architecture == "llama":
+        writer.add_rope_dimension_count(sizes.head_dim)
     _write_tokenizer(writer, table, tokenizer)
-    for tensor_name, tensor in _tensors(gguf, folder, architecture):
+    for tensor_name, tensor in _tensors(gguf, folder):
         dtype = "float16" if half and tensor.ndim > 1 else "float32"
         writer.add_tensor(tensor_name, tensor.astype(dtype))
     writer.write_header_to_file()
@@ -195,8 +199,7 @@ def import_gguf() -> Any:
     return gguf
 
 
-def _write_settings(writer: Any, config: dict[str, Any], architecture: str) -> None:
-    sizes = _sizes(config)
+def _write_settings(writer: Any, config: dict[str, Any], sizes: Dimensions) -> None:
     writer.add_vocab_size(sizes.vocabulary)
     writer.add_block_count(sizes.layers)
     writer.add_context_length(sizes.context)
@@ -208,8 +211,6 @@ def _write_settings(writer: Any, config: dict[str, Any], architecture: str) -> N
     writer.add_value_length(sizes.head_dim)
     writer.add_layer_norm_rms_eps(float(config["rms_norm_eps"]))
     writer.add_rope_freq_base(float(_rope(config).get("rope_theta", 10000.0)))
-    if architecture == "llama":
-        writer.add_rope_dimension_count(sizes.head_dim)
 
 
 def _write_tokenizer(writer: Any, table: TokenTable, tokenizer: Any) -> None:
@@ -230,13 +231,12 @@ def _write_tokenizer(writer: Any, table: TokenTable, tokenizer: Any) -> None:
         writer.add_chat_template(tokenizer.chat_template)
 
 
-def _tensors(gguf: Any, folder: Path, architecture: str) -> Iterator[tuple[str, Array]]:
+def _tensors(gguf: Any, folder: Path) -> Iterator[tuple[str, Array]]:
     """The tensors under llama.cpp's names, as float32. Raises PlannerError where one has none."""
     import numpy as np
     from safetensors import safe_open
 
-    config = read_config(folder)
-    sizes = _sizes(config)
+    architecture, config, sizes = check_architecture(folder)
     heads = {"q_proj": sizes.heads, "k_proj": sizes.kv_heads} if architecture == "llama" else {}
     names = gguf.get_tensor_name_map(gguf.MODEL_ARCH[architecture.upper()], sizes.layers)
     if factors := _rope_factors(config, sizes):
@@ -257,12 +257,6 @@ def _interleaved(tensor: Array, heads: int) -> Array:
     """Rows of each head from halves (transformers) to neighbouring pairs (llama.cpp)."""
     halves = tensor.reshape(heads, 2, tensor.shape[0] // heads // 2, *tensor.shape[1:])
     return halves.swapaxes(1, 2).reshape(tensor.shape)
-
-
-def _sizes(config: dict[str, Any]) -> Dimensions:
-    sizes = Dimensions.from_config(config)
-    assert sizes is not None  # check_architecture has read them
-    return sizes
 
 
 def _rope(config: dict[str, Any]) -> dict[str, Any]:

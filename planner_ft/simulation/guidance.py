@@ -293,7 +293,7 @@ class Wait(Movement):
     def __init__(self, job: Job, scene: Scene) -> None:
         super().__init__(job, scene)
         self.calm = np.zeros(scene.count)
-        stated = next((job.parameters[key] for key in job.parameters if key == "threshold"), None)
+        stated = job.parameters.get("threshold")
         self.most = float(stated) if stated is not None else TILT
 
     def step(self, runs: Runs, command: Floats) -> Floats:

@@ -37,26 +37,21 @@ def run_live(
     mcap = int(importlib.util.find_spec("mcap_ros2") is not None)
     how: dict[str, Any] = {"log": log, "vocabulary": vocabulary}
     settings = SimulationSettings(plan, folder, runs=1, mcap=mcap, **how)
-    (result,) = simulate(settings, watch=_Watch(speed, tell, stop)).results
+    begun, told = time.monotonic(), -FRAME
+
+    def watch(executor: Executor) -> None:
+        """After every step: tell, wait, and abort."""
+        nonlocal told
+        now, over = time.monotonic() - begun, not executor.active[0]
+        if over or now - told >= FRAME:
+            told = now
+            tell(frame_of(executor))
+        due = 0.0 if over else executor.scene.time / speed - now
+        if stop.wait(max(0.0, due)):
+            executor.abort(ONE, stop.reason)
+
+    (result,) = simulate(settings, watch=watch).results
     return {"outcome": result.outcome, "reason": result.reason, "seconds": result.seconds}
-
-
-class _Watch:
-    """Called after every step: tells, waits, and aborts."""
-
-    def __init__(self, speed: float, tell: Callable[[Frame], None], stop: Stop) -> None:
-        self.speed, self.tell, self.stop = speed, tell, stop
-        self.begun, self.told = time.monotonic(), -FRAME
-
-    def __call__(self, executor: Executor) -> None:
-        now = time.monotonic() - self.begun
-        over = not executor.active[0]
-        if over or now - self.told >= FRAME:
-            self.told = now
-            self.tell(frame_of(executor))
-        due = 0.0 if over else executor.scene.time / self.speed - now
-        if self.stop.wait(max(0.0, due)):
-            executor.abort(ONE, self.stop.reason)
 
 
 def frame_of(executor: Executor) -> Frame:

@@ -105,9 +105,7 @@ class _Prepared:
         self.starts[:, 3] = turned
 
     def _world(self) -> World:
-        """With the objects of the plan (structures, those of a chart, located places) where they
-        truly stand.
-        """
+        """Objects of plan and chart, and located places, stand where they truly are."""
         settings, staging, document = self.settings, self.staging, self.plan.document
         known = {one.name: one.position for one in staging.structures}
         for told in (document.get("structures", {}), document.get("located", {})):

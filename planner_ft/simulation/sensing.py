@@ -95,9 +95,7 @@ class Measures:
         return {"accuracy_m": round(found, 2), **limit}
 
     def objects(self) -> Record | None:
-        """Objects of the asked names; a place that was given from outside counts beyond the
-        sight.
-        """
+        """Objects of the asked names; a place given from outside counts beyond the sight."""
         asked = self._values.get("names") or self._values.get("name")
         names = asked if isinstance(asked, list) else [asked] if asked else [*self._world.objects]
         found = []
@@ -124,9 +122,7 @@ class Measures:
         return {"hotspot": list(near[1]) if near and hot else None, "most_C": HOT if hot else None}
 
     def range(self) -> Record:
-        """The least LiDAR range in a sector: of 30 degrees about a bearing, or the field of
-        view.
-        """
+        """The least LiDAR range in a sector: 30 degrees about a bearing, or the field of view."""
         seen, angles = self._scan(), np.degrees(self._world.ray_angles)
         middle = -float(self._values.get("bearing") or 0)
         view = float(self._values.get("view") or 30)

@@ -25,7 +25,7 @@ from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import check_writable, read_json, read_toml, write_json, write_text
 from planner_ft.support.tables import Table, TableRow, csv_table, markdown_table, row
-from planner_ft.support.terminal import Report
+from planner_ft.support.terminal import Report, under
 
 if TYPE_CHECKING:
     from planner_ft.planning.planner import Planner
@@ -135,7 +135,7 @@ def run_suite(suite: Suite, out: Path, report: Report, *, overwrite: bool = Fals
             for simulator in suite.simulators:
                 settings = _settings(suite, mission, simulator, plan)
                 if not (settings.folder / MANIFEST).exists():
-                    simulate(settings, _named(report, f"{mission.name}, {simulator}"))
+                    simulate(settings, under(f"{mission.name}, {simulator}", report))
                 ran[mission.name, simulator] = read_json(settings.folder / RESULTS)
         made = suite_table(suite, ran)
         write_text(out / "table.md", markdown_table(made))
@@ -169,10 +169,6 @@ def _plan(mission: Mission, path: Path, agents: Planner) -> None:
     document = build(planned, agents.vocabulary, load_vehicle(None, agents.vocabulary))
     write_document(path, document)
     approve(document, log_beside(path), f"suite, {mission.name}", ["all"], REASON)
-
-
-def _named(report: Report, name: str) -> Report:
-    return lambda label, done, total: report(f"{name}: {label}", done, total)
 
 
 def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> SimulationSettings:

@@ -298,9 +298,7 @@ def measure(
 
 
 def _scene(count: int, hold: bool, factor: float, seed: int) -> Scene:
-    """Vehicles at rest about [0, 0], heading anywhere, in water that moves `factor` times as fast
-    as published.
-    """
+    """Vehicles at rest about [0, 0], heading anywhere, in `factor` times the published current."""
     random, vessel = np.random.default_rng([seed, 17]), published_vessel()
     world = World(
         *(vessel, (0.0, 0.0), (), (), {}, (), lambda _start, _goal: True, Faults(), count, seed)

@@ -96,9 +96,7 @@ FAMILIES = PUBLISHED | HELD_OUT
 def draw_outline(
     family: str, random: np.random.Generator, sizes: tuple[float, float] = RADIUS
 ) -> Floats:
-    """An outline (150, 2) with a base radius in `sizes`, of any rotation, its centre up to a metre
-    off.
-    """
+    """An outline (150, 2), base radius in `sizes`, any rotation, its centre up to a metre off."""
     shape = FAMILIES[family](random)
     size, turn = random.uniform(*sizes), random.uniform(0, 360)
     shape = affinity.rotate(affinity.scale(shape, size, size, origin=(0, 0)), turn, origin=(0, 0))

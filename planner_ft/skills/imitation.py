@@ -34,9 +34,7 @@ WIDER: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Settings:
-    """`environments` drive `options` an iteration; then `updates` of `minibatch` samples of the
-    last `kept` ones.
-    """
+    """`environments` drive `options` an iteration; then `updates` of `minibatch` of the last `kept`."""
 
     seed: int = 0
     iterations: int = 200

@@ -147,8 +147,7 @@ class LearntSurvey(Movement):
         self.policy: Any = policy_of(job, "survey").module
         self.steer = Steered(read_policy("goto"), scene, job.speed)
         self.memory, count = Memory(scene.count), scene.count
-        center = job.center or (0.0, 0.0)
-        self.center = np.array(center, dtype=float)
+        self.center = np.array(job.center or (0.0, 0.0), dtype=float)
         self.standoff = float(np.clip(job.settings["standoff"], *STANDOFF))
         self.goal, self.left = np.zeros((count, 3)), np.zeros(count)
         self.swept, self.bearing = np.zeros(count), np.zeros(count)

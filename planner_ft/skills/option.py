@@ -97,9 +97,7 @@ def steps_between(index: Tensor, before: Tensor) -> Tensor:
 
 
 class Compiled:
-    """A function that torch compiles for the shapes it meets, or itself where it cannot (without a
-    C++ compiler, say).
-    """
+    """A function that torch compiles for its shapes, or itself where it cannot (no C++ compiler)."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         from torch._dynamo.exc import TorchDynamoException

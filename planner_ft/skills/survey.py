@@ -162,11 +162,8 @@ class Survey:
 
     def restore(self, kept: dict[str, Any]) -> None:
         """Go on from a snapshot."""
-        for name, value in kept.items():
-            if name == "random":
-                self.random.bit_generator.state = value
-            else:
-                setattr(self, name, value)
+        self.random.bit_generator.state = kept["random"]
+        vars(self).update({name: one for name, one in kept.items() if name != "random"})
 
     def observe(self) -> Tensor:
         """The published 68 numbers (B, 68)."""
@@ -174,9 +171,7 @@ class Survey:
 
     @torch.no_grad()
     def step(self, action: Tensor) -> Ended:
-        """Drive to the waypoints that actions (B, 2) name; episodes that end stay ended until they
-        are `reset`.
-        """
+        """Drive to the waypoints of actions (B, 2); episodes that end stay so until they are `reset`."""
         target, before = waypoint(action, self.pose), self.index
         to, none = target - self.state[:, :2], torch.zeros(self.count, dtype=torch.bool)
         goal = torch.cat([target, torch.atan2(to[:, 1], to[:, 0])[:, None]], dim=1)

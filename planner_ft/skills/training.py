@@ -14,7 +14,7 @@ from planner_ft.skills.policies import FILES, SKILLS, WEIGHTS, read_policy, writ
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import make_folder
-from planner_ft.support.terminal import Report
+from planner_ft.support.terminal import Report, under
 
 RECIPES = ("ours", "published")
 SAMPLING = ("uniform", "l3")
@@ -102,13 +102,8 @@ def train_all(root: Path, report: Report, *, seed: int, resume: bool, overwrite:
     how: dict[str, Any] = {"seed": seed, "resume": resume, "overwrite": overwrite}
     goto = {"survey": root / "goto"}
     for request in [SkillTraining(s, root / s, goto=goto.get(s), **how) for s in SKILLS]:
-        if resume and (request.out / WEIGHTS).exists():
-            continue
-
-        def named(label: str, done: int, total: int, skill: str = request.skill) -> None:
-            report(f"{skill}: {label}", done, total)
-
-        train_skill(request, named)
+        if not (resume and (request.out / WEIGHTS).exists()):
+            train_skill(request, under(request.skill, report))
 
 
 def _train(request: SkillTraining, settings: Any, report: Report) -> Any:

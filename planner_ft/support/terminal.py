@@ -14,6 +14,11 @@ Report = Callable[[str, int, int], None]
 """Progress: called with a label, how many are done and how many there are in all of that part."""
 
 
+def under(name: str, report: Report) -> Report:
+    """The progress of a part of that name."""
+    return lambda label, done, total: report(f"{name}: {label}", done, total)
+
+
 def plain(text: str, kept: str = "") -> str:
     """The text, what a terminal would obey or cannot show as JSON's escapes, but for `kept`."""
     if text.isprintable():
