@@ -1,5 +1,5 @@
-"""The behaviours of MOOS-IvP's helm for movements, boundaries and clearances of a plan, and the lines
-of a file as the helm reads them.
+"""The behaviours of MOOS-IvP's helm for movements, boundaries and clearances of a plan, and lines
+of its file.
 
 Sources: "An Overview of MOOS-IvP and a Users Guide to the IvP Helm"
 (https://oceanai.mit.edu/ivpman) and the behaviours' own sources
@@ -9,9 +9,9 @@ BHV_OpRegionV24 takes convex polygons alone; BHV_AvoidObstacleV24 is spawned by 
 pObstacleMgr.
 
 A line ends a statement; "//" begins a comment anywhere in it; a backslash at its end, even a
-comment's, takes the next line in; a line holds fewer than 5000 characters ("The Helm Behavior File";
-lib_helmivp/Populator_BehaviorSet.cpp and lib_mbutil/FileBuffer.cpp of MOOS-IvP). `$[NAME]` in a flag
-is a macro of the helm, `$(NAME)` and `%(NAME)` are macros of nsplug.
+comment's, takes the next line in; a line holds fewer than 5000 characters ("The Helm Behavior
+File"; lib_helmivp/Populator_BehaviorSet.cpp and lib_mbutil/FileBuffer.cpp). `$[NAME]` in a
+flag is a macro of the helm, `$(NAME)` and `%(NAME)` are macros of nsplug.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Folding a LoRA adapter into the weights, in full precision, and the answers before and after it."""
+"""Folding a LoRA adapter into the weights, in full precision, and answers before and after it."""
 
 from __future__ import annotations
 

@@ -116,7 +116,7 @@ class Staging:
         return frozenset(name for name, one in known.items() if one.docks or one.pattern == "pass")
 
     def check_starts(self, starts: Sequence[Point], world: World) -> None:
-        """Raise PlannerError for a start in a structure, and a start or home that a fence excludes."""
+        """Raise PlannerError for starts in structures, and a home or start that is fenced out."""
         home = self.vocabulary.home
         if home not in starts and self._excludes(home):
             problem = "a fence of the plan excludes home, where runs that fail return to"

@@ -226,7 +226,7 @@ def _write(
     write_json(out / "manifest.json", manifest)
 
 
-# ------------------------------------------------- GoToXY and StationKeep, in the simulator of missions
+# ----------------------------------- GoToXY and StationKeep, in the simulator of missions
 
 
 CURRENTS = {"published current": 1.0, "twice the published current": 2.0}

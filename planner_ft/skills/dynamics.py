@@ -1,5 +1,5 @@
-"""The vessel of `planner_ft.simulation.fast` with its autopilot in torch: batched, differentiable; and
-who drives it to a goal: the policies of GoToXY and StationKeep, which make two speeds of six
+"""The vessel of `planner_ft.simulation.fast` with its autopilot in torch, batched, differentiable;
+and who drives it to a goal: the policies of GoToXY and StationKeep, which make two speeds of six
 numbers of the goal, and guidance beside them.
 
 A state (B, 8) is x, y in m, yaw in rad, surge, sway in m/s, yaw rate in rad/s over ground in the

@@ -1,4 +1,4 @@
-"""Outlines of structures, the five published families and held-out ones; and rays, distances and the
+"""Outlines of structures, the five published families and held-out ones; rays, distances and the
 hull, for a batch of vehicles each before an outline of its own.
 
 An outline (150, 2) in m has its points counter-clockwise, evenly by arc length (published). Where

@@ -34,7 +34,9 @@ WIDER: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Settings:
-    """`environments` drive `options` an iteration; then `updates` of `minibatch` of the last `kept`."""
+    """`environments` drive `options` an iteration; then `updates` of `minibatch` samples of the
+    last `kept` ones.
+    """
 
     seed: int = 0
     iterations: int = 200

@@ -97,7 +97,7 @@ def steps_between(index: Tensor, before: Tensor) -> Tensor:
 
 
 class Compiled:
-    """A function that torch compiles for its shapes, or itself where it cannot (no C++ compiler)."""
+    """A function that torch compiles, or itself where it cannot (without a C++ compiler)."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         from torch._dynamo.exc import TorchDynamoException

@@ -171,7 +171,9 @@ class Survey:
 
     @torch.no_grad()
     def step(self, action: Tensor) -> Ended:
-        """Drive to the waypoints of actions (B, 2); episodes that end stay so until they are `reset`."""
+        """Drive to the waypoints that actions (B, 2) name; episodes that end stay ended until they
+        are `reset`.
+        """
         target, before = waypoint(action, self.pose), self.index
         to, none = target - self.state[:, :2], torch.zeros(self.count, dtype=torch.bool)
         goal = torch.cat([target, torch.atan2(to[:, 1], to[:, 0])[:, None]], dim=1)
