@@ -167,7 +167,7 @@ def _serve(o: Options) -> None:
     from planner_ft.exporters import run as exporting
     from planner_ft.review.desk import planning_of
     from planner_ft.review.web import WebSettings, serve
-    from planner_ft.simulation.live import run_live
+    from planner_ft.simulation.run import run_live
 
     way_out = "one is opened, and the page offers the others of its folder"
     plan = next(iter(_plans(o, way_out, 0, 1)), None)

@@ -1,14 +1,17 @@
-"""Simulating an approved plan: read and check it, run it, write results, logs and reports."""
+"""Simulating an approved plan: read and check it, run it, write results, logs and reports; for the
+review page one run at a pace that a person can watch.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import importlib.util
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,18 +19,22 @@ from planner_ft.document.track import Point, point_of
 from planner_ft.exporters.formats import PlanExport
 from planner_ft.exporters.run import read_plan
 from planner_ft.simulation.asked import SimulationSettings
-from planner_ft.simulation.executor import Executor
+from planner_ft.simulation.executor import Executor, Stage
 from planner_ft.simulation.fast import build_simulator, build_vessel, simulation_file
+from planner_ft.simulation.guidance import SETTLE
 from planner_ft.simulation.logs import RunLogs
 from planner_ft.simulation.measures import Observer, RunResult
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.staging import Staging
+from planner_ft.simulation.staging import PATIENCE, SLACK, Staging
 from planner_ft.simulation.world import World
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import check_writable
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.terminal import Report
+
+if TYPE_CHECKING:
+    from planner_ft.review.web.run import Frame, Stop
 
 RESULTS, MANIFEST = "results.json", "manifest.json"
 OURS = (
@@ -150,3 +157,67 @@ def _clear(folder: Path) -> None:
         raise PlannerError(f"--out {folder}: {problem}; give another folder")
     for path in ours:
         path.unlink()
+
+
+FRAME = 0.1  # seconds between two frames at least
+ONE = np.array([0])
+
+
+def run_live(
+    plan: Path,
+    log: Path,
+    folder: Path,
+    vocabulary: str,
+    speed: float,
+    tell: Callable[[Frame], None],
+    stop: Stop,
+) -> dict[str, Any]:
+    """Simulate a plan once into `folder`, `speed` times as fast as the clock. Raises PlannerError.
+
+    `tell` gets its frames; once `stop` is set it is aborted before its next step.
+    """
+    mcap = int(importlib.util.find_spec("mcap_ros2") is not None)
+    how: dict[str, Any] = {"log": log, "vocabulary": vocabulary}
+    settings = SimulationSettings(plan, folder, runs=1, mcap=mcap, **how)
+    begun, told = time.monotonic(), -FRAME
+
+    def watch(executor: Executor) -> None:
+        """After every step: tell, wait, and abort."""
+        nonlocal told
+        now, over = time.monotonic() - begun, not executor.active[0]
+        if over or now - told >= FRAME:
+            told = now
+            tell(frame_of(executor))
+        due = 0.0 if over else executor.scene.time / speed - now
+        if stop.wait(max(0.0, due)):
+            executor.abort(ONE, stop.reason)
+
+    (result,) = simulate(settings, watch=watch).results
+    return {"outcome": result.outcome, "reason": result.reason, "seconds": result.seconds}
+
+
+def frame_of(executor: Executor) -> Frame:
+    """What a page shows of the first run: where it is, what runs, and s that are left."""
+    scene, at = executor.scene, int(executor.at[0])
+    stage, last = executor.stages[at], len(executor.stages) - 1
+    x, y, _z, yaw = (round(float(one), 2) for one in scene.pose[0])
+    gone = float(executor.running[at].movement.elapsed(ONE)[0])
+    here = [stage] if at == last else executor.stages[at:last]
+    left = sum(map(_planned, here[1:])) + max(0.0, _planned(here[0]) - gone)
+    if at == last:
+        away = np.linalg.norm(scene.position[0] - np.array(scene.world.home))
+        left = float(away) / scene.vessel.cruise
+    return {
+        "t": round(scene.time, 1),
+        "pose": [x, y, yaw],
+        "task": stage.task,
+        "step": stage.step,
+        "skills": [job.skill for job in stage.jobs],
+        "left": round(left),
+        "over": not executor.active[0],
+    }
+
+
+def _planned(stage: Stage) -> float:
+    """Seconds that a step is planned for."""
+    return (stage.patience - SLACK) / PATIENCE or SETTLE

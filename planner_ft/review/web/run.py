@@ -32,7 +32,7 @@ class Stop(threading.Event):
 
 
 Runner = Callable[[Path, Path, Path, str, float, Callable[[Frame], None], Stop], dict[str, Any]]
-"""Carries a plan out (planner_ft.simulation.live): the files of plan and log, the folder of the
+"""Carries a plan out (planner_ft.simulation.run): the files of plan and log, the folder of the
 run, vocabulary, speed, what to call with each frame, and what stops it; gives outcome, reason and
 seconds. Raises PlannerError.
 """

@@ -19,7 +19,7 @@ from planner_ft.review.web.guard import Door
 from planner_ft.review.web.run import Runner
 from planner_ft.review.web.session import Session, WebSettings
 from planner_ft.simulation import output
-from planner_ft.simulation.live import run_live
+from planner_ft.simulation.run import run_live
 from tests.documents import document
 from tests.review.web.conftest import BASE, PORT, post, state
 from tests.simulation.plans import saved, transit

@@ -28,7 +28,7 @@ from planner_ft.review.web.app import web_app
 from planner_ft.review.web.guard import Door
 from planner_ft.review.web.planning import Planning
 from planner_ft.review.web.session import Session, WebSettings
-from planner_ft.simulation.live import run_live
+from planner_ft.simulation.run import run_live
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import load_vocabulary
 from tests.browser import headless_chromium
