@@ -134,7 +134,13 @@ class _Hull:
         flow = np.einsum("nij,ni->nj", turn[:, :2], current)
         through = np.column_stack([speed - flow, spin])
         momentum = self.added * through
-        force = self._driving(thrust) + self._air(turn, velocity, wind)
+        force, ahead = np.zeros_like(through), thrust.sum(axis=1)
+        force[:, 0], force[:, 4] = ahead, -self.draft * ahead  # under the keel
+        force[:, 5] = (thrust[:, 1] - thrust[:, 0]) * self.own.track / 2
+        over = wind - velocity[:, :2]
+        pressed = self.own.windage * np.linalg.norm(over, axis=1)[:, None] * over
+        pressed *= (np.linalg.norm(wind, axis=1) > 0)[:, None]
+        force[:, :3] += np.einsum("nij,ni->nj", turn[:, :2], pressed)
         force -= self.damping * through + self._cross_flow(through)
         force[:, 0] -= self.square * np.abs(through[:, 0]) * through[:, 0]
         afloat = self.restoring[0] * heave[:, None] * turn[:, 2]  # weight less buoyancy
@@ -150,20 +156,6 @@ class _Hull:
         centripetal = np.column_stack(carried)
         applied = self.rigid / (self.rigid + self.added) * (force - centripetal) + centripetal
         return np.column_stack([np.einsum("nij,nj->ni", turn, applied[:, :3]), applied[:, 3:]])
-
-    def _driving(self, thrust: Floats) -> Floats:
-        """Two thrusters under the keel, `track` apart."""
-        ahead, force = thrust.sum(axis=1), np.zeros((len(thrust), 6))
-        force[:, 0], force[:, 4] = ahead, -self.draft * ahead
-        force[:, 5] = (thrust[:, 1] - thrust[:, 0]) * self.own.track / 2
-        return force
-
-    def _air(self, turn: Floats, velocity: Floats, wind: Floats) -> Floats:
-        over, force = wind - velocity[:, :2], np.zeros((len(wind), 6))
-        pressed = self.own.windage * np.linalg.norm(over, axis=1)[:, None] * over
-        pressed *= (np.linalg.norm(wind, axis=1) > 0)[:, None]
-        force[:, :3] = np.einsum("nij,ni->nj", turn[:, :2], pressed)
-        return force
 
     def _cross_flow(self, through: Floats) -> Floats:
         """Drag of strips of the hull against water from the side, as (B, 6) that is taken off."""

@@ -14,7 +14,7 @@ import numpy as np
 from planner_ft.document.clearance import way_round
 from planner_ft.document.track import Point
 from planner_ft.simulation.fast import Bools, Floats, Runs, turned, wrapped
-from planner_ft.simulation.scene import FIX_SIGMA, Pid, Scene
+from planner_ft.simulation.scene import FIX_SIGMA, Scene, Steering
 from planner_ft.simulation.skill import Job, Skill
 
 AHEAD = 4.0  # metres that guidance looks ahead on the path
@@ -24,20 +24,6 @@ SLOW, BRAKE = 0.1, 0.125  # m/s at the goal, and m/s^2 at which the vehicle slow
 TANGENT = 1.0  # metres of the path that say its direction
 STILL = 0.05  # m/s or rad/s below which the vehicle rests
 HEADING = math.radians(3)  # angular error of a reached heading
-
-
-class Steering:
-    """PID on an error of heading or course: rad to rad/s."""
-
-    def __init__(self, scene: Scene) -> None:
-        self.pid, self.scene = Pid(scene.count, 0.9, 0.02, 0.1, most=0.05, small=0.2), scene
-        self.error = np.zeros(scene.count)
-
-    def __call__(self, runs: Runs, error: Floats) -> Floats:
-        self.error[:] = 0.0
-        self.error[runs] = error
-        most = self.scene.vessel.turn
-        return np.clip(self.pid(self.error, self.scene.seconds)[runs], -most, most)
 
 
 class Movement(Skill):
@@ -230,8 +216,7 @@ class Hold(Movement):
         return super().failed(runs) | (self.away[runs] > GRACE)
 
     def errors(self, runs: Runs) -> dict[str, Floats]:
-        away = np.linalg.norm(self.scene.pose[runs, :2] - self.place[runs], axis=1)
-        return {"holding": away}
+        return {"holding": np.linalg.norm(self.scene.pose[runs, :2] - self.place[runs], axis=1)}
 
 
 class Turn(Movement):

@@ -213,3 +213,17 @@ class Scene:
         x, y = self.position[run]
         place = {"t": round(self.time, 1), "kind": kind, "at": [round(x, 2), round(y, 2)]}
         self.write(run, {**place, **values})
+
+
+class Steering:
+    """PID on an error of heading or course: rad to rad/s."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.pid, self.scene = Pid(scene.count, 0.9, 0.02, 0.1, most=0.05, small=0.2), scene
+        self.error = np.zeros(scene.count)
+
+    def __call__(self, runs: Runs, error: Floats) -> Floats:
+        self.error[:] = 0.0
+        self.error[runs] = error
+        most = self.scene.vessel.turn
+        return np.clip(self.pid(self.error, self.scene.seconds)[runs], -most, most)
