@@ -45,11 +45,6 @@ class Settings:
     sampling: str = "uniform"
     without: str | None = None
 
-    @property
-    def task(self) -> Task:
-        weights = L3 if self.sampling == "l3" else None
-        return Task(weights=weights).without(self.without)
-
 
 @dataclass
 class Batch:
@@ -153,7 +148,8 @@ def train(
     torch.manual_seed(settings.seed)
     learner = Learner(settings)
     drawn = np.random.default_rng([settings.seed, 13])
-    world = Survey(settings.task, settings.environments, tracker, drawn, compiled=True)
+    task = Task(weights=L3 if settings.sampling == "l3" else None).without(settings.without)
+    world = Survey(task, settings.environments, tracker, drawn, compiled=True)
     random = torch.Generator().manual_seed(settings.seed)
     kept = Checkpoint(folder, settings, random, learner.nets, learner.optimizer, resume=resume)
     best: dict[str, Any] = {"reward": -math.inf, "iteration": 0, "weights": {}}
