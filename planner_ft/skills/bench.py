@@ -38,7 +38,7 @@ from planner_ft.support.geodesy import Origin
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, csv_table, figure, markdown_table, row
 from planner_ft.support.terminal import Report
-from planner_ft.vocabulary.motion import Motion
+from planner_ft.vocabulary.definition import Motion
 
 MOST = 500
 ROUNDING = 1.5
