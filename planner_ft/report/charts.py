@@ -47,10 +47,6 @@ class Chart:
     groups: tuple[str, ...] = ()
     high: float | None = None
 
-    @property
-    def name(self) -> str:
-        return self.table.name
-
 
 def charts(tests: TestSet) -> list[Chart]:
     """The figures over all systems for which the runs hold something, in the order of the page."""

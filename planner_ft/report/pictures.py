@@ -49,6 +49,15 @@ def picture(chart: Chart) -> dict[str, bytes]:
         }
 
 
+def saved(chart: Chart, folder: Path) -> Iterator[Path]:
+    """Write a chart into a folder as NAME.png and NAME.svg; yields the files."""
+    for suffix, content in picture(chart).items():
+        path = folder / f"{chart.table.name}.{suffix}"
+        with atomic_writer(path, "wb") as stream:
+            stream.write(content)
+        yield path
+
+
 def inline_svg(chart: Chart, width: int) -> str:
     """A chart as an element of a page that allows no style but its own, which knows its colours."""
     with _drawn(chart, width) as figure:
@@ -78,7 +87,7 @@ def _drawn(chart: Chart, width: int, title: str = "") -> Iterator[Any]:
     from matplotlib.figure import Figure
 
     # Ids of one drawing are those of no other.
-    salt = {"svg.hashsalt": f"{chart.name}-{width}"}
+    salt = {"svg.hashsalt": f"{chart.table.name}-{width}"}
     with matplotlib.rc_context(SETTINGS | salt), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # names may hold any letters
         figure = Figure(layout="constrained")
@@ -250,9 +259,4 @@ def write_figure(points: Sequence[Point], what: str, out: Path) -> list[Path]:
     words = WORDS["learning-curve"]
     heads = (f"{what} trained on", "share", "")
     table = Table("Line", heads, rows, name="learning-curve", **words)
-    written = []
-    for suffix, content in picture(Chart("lines", table)).items():
-        written.append(out / f"{table.name}.{suffix}")
-        with atomic_writer(written[-1], "wb") as stream:
-            stream.write(content)
-    return written
+    return list(saved(Chart("lines", table), out))

@@ -22,10 +22,10 @@ from planner_ft.benchmark.results import Row, heading
 from planner_ft.candidates.adapters import MANIFEST, WEIGHTS, adapter_sha256
 from planner_ft.report.answers import index, parts, script_json
 from planner_ft.report.contents import MAIN, Section, failure_words, section
-from planner_ft.report.pictures import NARROW, WIDE, inline_svg, picture
+from planner_ft.report.pictures import NARROW, WIDE, inline_svg, saved
 from planner_ft.report.runs import TestSet, load_test_sets, within
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import atomic_writer, read_json, read_text, write_text
+from planner_ft.support.files import read_json, read_text, write_text
 from planner_ft.support.tables import csv_table, latex_table, markdown_table
 from planner_ft.support.templates import environment
 
@@ -96,11 +96,7 @@ def _figures(sections: Sequence[Section], out: Path, pictures: str) -> Iterator[
         return
     for one in sections:
         for chart in one.figures if pictures == "all" else one.charts:
-            for suffix, content in picture(chart).items():
-                path = out / FIGURES / f"{chart.name}.{suffix}"
-                with atomic_writer(path, "wb") as stream:
-                    stream.write(content)
-                yield path
+            yield from saved(chart, out / FIGURES)
 
 
 ASSETS = Path(__file__).parent / "assets"
@@ -196,25 +192,21 @@ def _eval_results(tests: TestSet, row: Row) -> Iterator[Any]:
 
 
 def _section(measured: Sequence[Measured]) -> str:
-    parts = ["## Measured"]
-    sets = {tests.key: tests for tests, _row in reversed(measured)}
-    for key in dict.fromkeys(tests.key for tests, _row in measured):
-        rows = [row for tests, row in measured if tests.key == key]
+    """The figures by test set, their limits, and how the wrong answers were wrong."""
+    parts, sets = ["## Measured"], dict[str, tuple[TestSet, list[Row]]]()
+    for tests, row in measured:
+        sets.setdefault(tests.key, (tests, []))[1].append(row)
+    for tests, rows in sets.values():
         how = "In brackets 95 % intervals."
-        table = replace(metric_table(MAIN, rows), title=f"{sets[key].title}.", caption=how)
-        limits = [f"- {text}" for text in _limits(sets[key], rows)]
-        parts += [markdown_table(table) + "\n".join(limits)]
+        table = replace(metric_table(MAIN, rows), title=f"{tests.title}.", caption=how)
+        data = f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…)"
+        limits = [f"- {data}: a difference smaller than the intervals is not known."]
+        for row in rows:
+            kinds = failure_words(row)
+            words = f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."
+            limits.append(f"- {heading(row.system.configuration)}: {words}")
+        parts.append(markdown_table(table) + "\n".join(limits))
     return "\n\n".join(parts)
-
-
-def _limits(tests: TestSet, rows: Sequence[Row]) -> Iterator[str]:
-    """The limits of the figures, and how the wrong answers were wrong."""
-    data = f"{tests.n} samples of {Path(tests.path).name} (SHA-256 {tests.sha256[:12]}…)"
-    yield f"{data}: a difference smaller than the intervals is not known."
-    for row in rows:
-        kinds = failure_words(row)
-        words = f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."
-        yield f"{heading(row.system.configuration)}: {words}"
 
 
 def _with_section(text: str, section: str) -> str:

@@ -56,7 +56,7 @@ CHARTS = [
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("chart", CHARTS, ids=lambda chart: chart.name)
+@pytest.mark.parametrize("chart", CHARTS, ids=lambda chart: chart.table.name)
 def test_a_chart_is_a_png_and_an_svg_whose_letters_stay_text(chart: Chart) -> None:
     files = picture(chart)
     assert files["png"].startswith(b"\x89PNG")
@@ -77,7 +77,7 @@ def test_the_same_chart_gives_the_same_bytes() -> None:
     assert picture(CHARTS[3]) == picture(CHARTS[3])
 
 
-@pytest.mark.parametrize("chart", CHARTS[:3], ids=lambda chart: chart.name)
+@pytest.mark.parametrize("chart", CHARTS[:3], ids=lambda chart: chart.table.name)
 @pytest.mark.parametrize("width", [WIDE, NARROW])
 def test_a_drawing_in_the_page_has_its_width_and_no_style_of_its_own(
     chart: Chart, width: int
