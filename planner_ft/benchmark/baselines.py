@@ -100,10 +100,8 @@ def _majority(data: BenchData, training: BenchData) -> dict[str, Line]:
         groups.setdefault(sample.record.get("task"), []).append(sample)
     plans = {group: majority_plan(data.level, samples) for group, samples in groups.items()}
     fallback = majority_plan(data.level, training.samples)
-    return {
-        sample.id: _line(sample, plans.get(sample.record.get("task"), fallback))
-        for sample in data.samples
-    }
+    asked = ((sample, sample.record.get("task")) for sample in data.samples)
+    return {sample.id: _line(sample, plans.get(task, fallback)) for sample, task in asked}
 
 
 def majority_plan(level: Level, samples: Sequence[Sample]) -> Plan:

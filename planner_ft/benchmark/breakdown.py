@@ -158,7 +158,7 @@ def confidence_figures(confidence: Sequence[float], right: Sequence[bool]) -> di
     n, wrong = len(right), sum(not one for one in right)
     errors = _errors_among_surest(confidence, right)
     risks = [found / count for count, found in enumerate(errors, start=1)]
-    bins = reliability_bins(confidence, right)
+    bins = _bins(confidence, right)
     tenth = n - round(n * TENTH)
     least = wrong - (errors[tenth - 1] if tenth else 0.0)
     within = [count for count, risk in enumerate(risks, start=1) if risk <= APPROVED]
@@ -175,9 +175,7 @@ def confidence_figures(confidence: Sequence[float], right: Sequence[bool]) -> di
     }
 
 
-def reliability_bins(
-    confidence: Sequence[float], right: Sequence[bool]
-) -> list[tuple[float, float, int]]:
+def _bins(confidence: Sequence[float], right: Sequence[bool]) -> list[tuple[float, float, int]]:
     """(mean confidence, share of right answers, answers) of every bin that has any."""
     found: dict[int, list[tuple[float, bool]]] = {}
     for held, one in sorted(zip(confidence, right, strict=True)):

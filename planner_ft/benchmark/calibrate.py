@@ -121,7 +121,7 @@ def judge(
     if choices is None or line.get("parsed") is None:
         return
     score = score_sample(level, sample, line, vocabulary)
-    of_entries = _right_entries(level, score, vocabulary)
+    of_entries = _right(level, score, vocabulary)
     entry = -1
     for part in parts(level, line["output"], choices):
         if part.kind == "plan":
@@ -134,9 +134,7 @@ def judge(
             yield Judged(part, whole if part.kind == "entry" else named, sample.family)
 
 
-def _right_entries(
-    level: Level, score: SampleScore, vocabulary: Vocabulary
-) -> list[tuple[bool, set[str]]]:
+def _right(level: Level, score: SampleScore, vocabulary: Vocabulary) -> list[tuple[bool, set[str]]]:
     """Per predicted entry whether name and parameters are right, and the names of right values."""
     found: list[tuple[bool, set[str]]] = [(False, set()) for _ in score.alignment.predicted]
     for ours, theirs in score.alignment.pairs:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import CATALOGUE, METRIC, Metric
-from planner_ft.benchmark.contrasts import DEFAULT_METRICS, Scores, by_system, sentences
+from planner_ft.benchmark.contrasts import DEFAULTS, Scores, by_system, sentences
 from planner_ft.benchmark.folder import SCORES, read_results
 from planner_ft.benchmark.paired import EXPLAINED, MARGIN, Comparison, adjusted, p_text, paired
 from planner_ft.benchmark.results import Results
@@ -72,12 +72,12 @@ def compare_runs(
     common: bool = False,
     seed: int = 0,
 ) -> Report:
-    """Compare rows of runs by metrics of results.json, else by DEFAULT_METRICS. `against` names the
-    row that the others are compared with, None takes the first one; `same` compares each row with
-    that of the same name in the first run instead. `common` allows different data files. Raises
+    """Compare rows of runs by metrics of results.json, else by DEFAULTS. `against` names the row
+    that the others are compared with, None takes the first one; `same` compares each row with that
+    of the same name in the first run instead. `common` allows different data files. Raises
     PlannerError where they cannot be compared.
     """
-    metrics, known = metrics or DEFAULT_METRICS, [metric.name for metric in CATALOGUE]
+    metrics, known = metrics or DEFAULTS, [metric.name for metric in CATALOGUE]
     for name in (name for name in metrics if name not in known):
         raise PlannerError(f"--metric {name}: unknown; there are {', '.join(known)}")
     asked = [METRIC[name] for name in dict.fromkeys(metrics)]

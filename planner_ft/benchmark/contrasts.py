@@ -24,11 +24,8 @@ Wanted = list[tuple[System, System, Metric]]
 
 DECISIVE = ("f1", "whole_plan")
 """The metrics that say whether a baseline is beaten, and what enforcing changed."""
-DEFAULT_METRICS = (
-    *("f1", "exact_sequence", "parameters", "whole_plan", "hallucination"),
-    "strict_valid",
-)
-COMPARED = (*DEFAULT_METRICS, "schema_valid")
+DEFAULTS = ("f1", "exact_sequence", "parameters", "whole_plan", "hallucination", "strict_valid")
+COMPARED = (*DEFAULTS, "schema_valid")
 BEST = "★"
 NOT_WORSE = ("equal", "not told apart", "better")
 RIGHT = "right"  # the outcome of an answer with right names, order and parameters

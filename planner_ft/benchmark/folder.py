@@ -233,17 +233,15 @@ def read_run(folder: Path) -> RunRecord:
     return RunRecord(**{name: record[name] for name in names} | {"systems": systems})
 
 
-def measured_in(
-    folder: Path, record: RunRecord, names: Sequence[str] | None = None
-) -> list[Measured]:
+def measured_in(folder: Path, run: RunRecord, names: Sequence[str] | None = None) -> list[Measured]:
     """A run's systems, or those of these jobs, with all their lines, read without locking."""
     logs = [records_by_key(folder / name) for name in (PREDICTIONS, LATENCY)]
     planned, found = records_by_key(folder / PLANNING), []
-    for name in record.systems if names is None else names:
-        system = record.systems[name]
-        costs = record.costs.get(system.candidate, {})
+    for name in run.systems if names is None else names:
+        system = run.systems[name]
+        costs = run.costs.get(system.candidate, {})
         planning = costs.get("planning_keys", {}).get(system.configuration)
-        answers, timed = (log.get(record.keys[name], {}) for log in logs)
+        answers, timed = (log.get(run.keys[name], {}) for log in logs)
         lines = [*planned.get(planning, {}).values()]
         found.append(Measured(system, answers, timed, costs, lines))
     return found

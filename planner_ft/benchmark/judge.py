@@ -64,9 +64,8 @@ class Judge:
 
     def _scored(self, record: dict[str, Any], answer: Generation) -> Answer:
         ids = answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
-        text = self.tokenizer.decode(
-            list(ids), skip_special_tokens=False, clean_up_tokenization_spaces=False
-        )
+        how = {"skip_special_tokens": False, "clean_up_tokenization_spaces": False}
+        text = self.tokenizer.decode(list(ids), **how)
         sample = Sample.of(record)
         output = {"output": without_working(str(text))[0]}
         values = score_sample(self.request.level, sample, output, self.request.vocabulary).values

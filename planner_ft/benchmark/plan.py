@@ -153,11 +153,8 @@ def _adapters(settings: BenchSettings, candidates: Sequence[Candidate]) -> dict[
     chosen: dict[str, Path] = {}
     for text in settings.adapters:
         name, separator, folder = text.partition("=")
-        named = [
-            one.name
-            for one in candidates
-            if separator and name in (one.name, one.repo, str(one.folder))
-        ]
+        among = candidates if separator else ()
+        named = [one.name for one in among if name in (one.name, one.repo, str(one.folder))]
         if not named and len(candidates) > 1:
             names = ", ".join(candidate.name for candidate in candidates)
             way = "with several candidates give NAME=DIR for each"
@@ -248,15 +245,12 @@ def _check_servable(configurations: Sequence[Configuration]) -> None:
 
 def _served_job(endpoint: EndpointSettings, configuration: Configuration, common: Parts) -> Job:
     """A job of the served model; published figures stand beside one of the published names."""
-    wanted, with_vocabulary = endpoint.model.lower(), not configuration.adapter
-    known = [
-        one for one in all_candidates() if wanted in ((one.repo or "").lower(), one.name.lower())
-    ]
+    wanted, every = endpoint.model.lower(), all_candidates()
+    known = [one for one in every if wanted in ((one.repo or "").lower(), one.name.lower())]
     candidate = Candidate(name=endpoint.model, published=known[0].published if known else None)
-    label, name = f"{candidate.row_name} at {endpoint.host}", configuration.name
-    system = System(
-        candidate.name, name, label, candidate.published, with_vocabulary=with_vocabulary
-    )
+    label = f"{candidate.row_name} at {endpoint.host}"
+    named = candidate.name, configuration.name, label, candidate.published
+    system = System(*named, with_vocabulary=not configuration.adapter)
     sampling = {"temperature": 0, "seed": SERVER_SEED}
     parts = _parts(common, system, {"endpoint": endpoint.root, "sampling": sampling})
     return Job(candidate, configuration, parts, system)

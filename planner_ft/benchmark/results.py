@@ -171,9 +171,8 @@ class Results:
         cls, record: Record, scores: Sequence[Record] = (), baselines: Sequence[Record] = ()
     ) -> Results:
         """results.json with the lines of scores.jsonl and baselines.jsonl."""
-        ours, theirs = (
-            tuple(map(Row.from_json, record.get(part) or ())) for part in ("rows", "baselines")
-        )
+        ours = tuple(map(Row.from_json, record.get("rows") or ()))
+        theirs = tuple(map(Row.from_json, record.get("baselines") or ()))
         beside = tuple(scores), theirs, tuple(baselines)
         return cls(
             *(record["level"], record["data"], ours, record.get("manifest") or {}, *beside),

@@ -21,7 +21,7 @@ from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.candidates.adapters import adapter_sha256, find_adapter
 from planner_ft.support.files import sha256_text
 from planner_ft.support.manifest import build_manifest
-from planner_ft.support.ranks import Ranks
+from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.plans import parse_output
 
@@ -119,9 +119,7 @@ def _timed(job: Job, samples: list[Sample], source: Source) -> Iterator[Line]:
         yield {**named, "tokens": tokens, "forward_passes": passes, **begun}
 
 
-def run_bench(
-    settings: BenchSettings, progress: Report = silent, ranks: Ranks | None = None
-) -> Results:
+def run_bench(settings: BenchSettings, progress: Report = silent, ranks: Ranks = ALONE) -> Results:
     """Benchmark every candidate in every configuration and write results.json and the tables into
     `settings.folder`.
 
@@ -129,7 +127,7 @@ def run_bench(
     With several processes this is for the first, and `help_bench` for the others. Raises
     PlannerError.
     """
-    out, ranks = settings.folder, ranks or Ranks()
+    out = settings.folder
     folder.check_folder(out, folder.ALL, resume=settings.resume, overwrite=settings.overwrite)
     plan = make_plan(replace(settings, device=ranks.device(settings.device)))
     started = time.time()
@@ -238,20 +236,18 @@ def time_planning(plan: Plan, jobs: Sequence[Job], progress: Report) -> dict[str
     return {"planning_keys": keys, "planning_problem": problem}
 
 
-def _planned(
-    plan: Plan, job: Job, task_adapter: Path | None, commands: dict[str, str]
-) -> Iterator[Line]:
+def _planned(plan: Plan, job: Job, adapter: Path | None, wanted: dict[str, str]) -> Iterator[Line]:
     from planner_ft.planning import Planner
 
     shared = ("vocabulary", "device", "quantization")
     settings: dict[str, Any] = {name: getattr(plan.settings, name) for name in shared}
-    settings |= {"mission_adapter": job.adapter, "task_adapter": task_adapter}
+    settings |= {"mission_adapter": job.adapter, "task_adapter": adapter}
     settings["configuration"] = job.configuration.name
     with Planner.load(job.candidate.given_as, **settings) as planner:
         # Work that is done once (4-bit weights packed, grammars compiled, the Task Agent loaded) is
         # not counted.
         planner.plan(planning_command(2, 0))
-        for name, command in commands.items():
+        for name, command in wanted.items():
             started = time.perf_counter()
             planned = planner.plan(command)
             seconds = time.perf_counter() - started

@@ -187,8 +187,4 @@ def plan_logic(answer: Answer, record: dict[str, Any]) -> tuple[Values, Details]
         for kind in KINDS
         if reached.stated[kind]
     }
-    return values, {
-        "stop": asdict(stop) if stop else None,
-        "ungrounded": ungrounded,
-        "slots": slots,
-    }
+    return values, {"stop": stop and asdict(stop), "ungrounded": ungrounded, "slots": slots}

@@ -127,13 +127,11 @@ def bootstrap_ratio(
     return Estimate(float(top / below), *percentiles(known[:, 0] / known[:, 1]))
 
 
-def cluster_sums(
-    values: Sequence[Sequence[float]] | Floats, clusters: Sequence[Hashable]
-) -> Floats:
-    """Sums of `values`, (samples, columns), over clusters as they appear: (clusters, columns)."""
+def cluster_sums(rows: Sequence[Sequence[float]] | Floats, clusters: Sequence[Hashable]) -> Floats:
+    """Sums of `rows`, (samples, columns), over clusters as they appear: (clusters, columns)."""
     order = {cluster: index for index, cluster in enumerate(dict.fromkeys(clusters))}
-    sums = np.zeros((len(order), len(values[0])))
-    np.add.at(sums, [order[cluster] for cluster in clusters], np.asarray(values, dtype=float))
+    sums = np.zeros((len(order), len(rows[0])))
+    np.add.at(sums, [order[cluster] for cluster in clusters], np.asarray(rows, dtype=float))
     return sums
 
 

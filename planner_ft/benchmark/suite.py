@@ -173,7 +173,7 @@ def run_suite(
         assert isinstance(unit, Run) and unit.plan
         unit.failed.update(dict.fromkeys(unit.plan.settings.configurations, problem))
     parts, manifest = combine(suite, units, session, changes)
-    write_suite(out, suite.title, parts, manifest)
+    _write(out, suite.title, parts, manifest)
     return parts
 
 
@@ -240,9 +240,7 @@ def _part(
     return PartResults(part, results, tuple(failed))
 
 
-def write_suite(
-    out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]
-) -> None:
+def _write(out: Path, title: str, parts: Sequence[PartResults], manifest: dict[str, Any]) -> None:
     """Write PART/ and the overview into `out`, results.json last: then all is there."""
     for one in parts:
         where = out / one.part.name

@@ -150,9 +150,7 @@ def _stops(tests: TestSet) -> Chart:
             at = f"{stop['condition']}, at {stop['title']}" if stop.get("title") else "no plan"
             found[system.name][at] += stop["n"]
     total = sum(found.values(), Counter[str]())
-    cells = {
-        stop: [counts[stop] for counts in found.values()] for stop, _count in total.most_common()
-    }
+    cells = {stop: [counts[stop] for counts in found.values()] for stop, _n in total.most_common()}
     return _matrix(tests, "stops", ("Missing", *found), cells)
 
 

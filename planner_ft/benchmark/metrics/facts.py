@@ -18,12 +18,12 @@ well: the groundedness of `+grounded` configurations is 100 % by construction.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from planner_ft import facts
-from planner_ft.benchmark.metrics.alignment import TASK, Alignment, Entry
+from planner_ft.benchmark.metrics.alignment import TASK, Alignment, Entries
 from planner_ft.benchmark.metrics.values import values_agree
 from planner_ft.vocabulary import Parameter, Vocabulary
 
@@ -57,9 +57,7 @@ class Reached:
     in_prompt: Counter[str]
 
 
-def groundedness(
-    entries: Sequence[Entry], source: facts.Input, vocabulary: Vocabulary
-) -> Groundedness:
+def groundedness(entries: Entries, source: facts.Input, vocabulary: Vocabulary) -> Groundedness:
     """Judge the values of a plan's entries; where the input cannot be read with certainty, none."""
     judged, ungrounded, before = 0, [], list[tuple[float, float]]()
     for given in given_values(entries, vocabulary):
@@ -71,16 +69,15 @@ def groundedness(
     return Groundedness(judged, tuple(ungrounded))
 
 
-def given_values(entries: Sequence[Entry], vocabulary: Vocabulary) -> Iterator[Given]:
+def given_values(entries: Entries, vocabulary: Vocabulary) -> Iterator[Given]:
     """Every value; a destination's coordinates are one, unknown parameters are judged by form."""
     for index, entry in enumerate(entries):
         skill = vocabulary.skill.get(entry.name) if entry.role != TASK else None
         pair = [item.name for item in skill.coordinates] if skill else []
-        together = len(pair) == 2 and all(
-            facts.is_number(entry.parameters.get(name)) for name in pair
-        )
+        numbers = [entry.parameters.get(name) for name in pair]
+        together = len(pair) == 2 and all(map(facts.is_number, numbers))
         if together:
-            yield Given(index, facts.WAYPOINT, [entry.parameters[name] for name in pair])
+            yield Given(index, facts.WAYPOINT, numbers)
         known = entry.known(vocabulary)
         for name, value in entry.parameters.items():
             if not (together and name in pair):
@@ -138,6 +135,5 @@ def _says(prompt: str, slot: Given) -> bool:
     if _slot_kind(slot.parameter) != "names":
         return facts.read(prompt).evidence(slot.value, slot.parameter, facts.SCORING).given is True
     wanted = slot.value if isinstance(slot.value, list) else [slot.value]
-    return not any(
-        facts.missing_words(prompt, facts.normalised(str(one)), misspelt=False) for one in wanted
-    )
+    texts = (facts.normalised(str(one)) for one in wanted)
+    return not any(facts.missing_words(prompt, text, misspelt=False) for text in texts)

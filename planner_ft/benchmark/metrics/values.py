@@ -49,7 +49,7 @@ def values_agree(
     if loose and parameter is not None and isinstance(given, str) and is_number(stated):
         given = _measured(given, parameter.unit)
     if is_place(given) and is_place(stated):
-        return _positions_agree(given, stated, vocabulary)
+        return _places_agree(given, stated, vocabulary)
     if isinstance(stated, list):
         if not isinstance(given, list) or len(given) != len(stated):
             return False
@@ -62,9 +62,7 @@ def values_agree(
     return bool(type(given) is type(stated) and given == stated)
 
 
-def _positions_agree(
-    given: Sequence[float], stated: Sequence[float], vocabulary: Vocabulary
-) -> bool:
+def _places_agree(given: Sequence[float], stated: Sequence[float], vocabulary: Vocabulary) -> bool:
     unresolved = list(vocabulary.unresolved)
     if (list(given) == unresolved) != (list(stated) == unresolved):
         return False
