@@ -7,7 +7,7 @@ from __future__ import annotations
 import itertools
 import shutil
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -134,13 +134,13 @@ def run_units(curve: Curve, report: Callable[[State], None]) -> None:
         raise IncompleteError(f"{unit.name}: {step}: {problem} ({log}); {kept}")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Trained(Unit):
     """Training on the first `size` samples (0: none) with a seed, and the benchmark after it."""
 
-    curve: Curve = field(kw_only=True)
-    size: int = field(kw_only=True)
-    seed: int = field(kw_only=True)
+    curve: Curve
+    size: int
+    seed: int
 
     def is_finished(self) -> bool:
         return (self.folder / UNIT).is_file()

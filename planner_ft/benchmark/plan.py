@@ -128,11 +128,8 @@ def make_plan(settings: BenchSettings) -> Plan:
         for one in (one for one in candidates if one.name in chosen):
             adapters.check_adapter(chosen[one.name], one, level=level, vocabulary=vocabulary)
         seen = {name: _seen(folder, data, vocabulary) for name, folder in chosen.items()}
-        jobs = [
-            _job(settings, one, configuration, vocabulary, common, chosen.get(one.name), seen)
-            for one in candidates
-            for configuration in configurations
-        ]
+        known = settings, vocabulary, common, chosen, seen
+        jobs = [_job(one, how, *known) for one in candidates for how in configurations]
     every = tuple(one for job in jobs for one in job.repeated(settings))
     return Plan(settings, data, vocabulary, device, every)
 
@@ -200,16 +197,16 @@ def _seen(adapter: Path, data: BenchData, vocabulary: Vocabulary) -> int:
 
 
 def _job(
-    settings: BenchSettings,
     candidate: Candidate,
     configuration: Configuration,
+    settings: BenchSettings,
     vocabulary: Vocabulary,
     common: Parts,
-    adapter: Path | None,
+    chosen: dict[str, Path],
     seen: dict[str, int],
 ) -> Job:
     folder = loading.require_folder(candidate)
-    used = adapter if configuration.adapter else None
+    used = chosen.get(candidate.name) if configuration.adapter else None
     quantization = candidate.stored_as(settings.level, settings.quantization)
     with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, used)
     parts = {

@@ -108,23 +108,20 @@ def bootstrap_mean(values: Sequence[float], clusters: Sequence[Hashable], seed: 
 
 
 def bootstrap_ratio(
-    numerators: Sequence[float],
-    denominators: Sequence[float],
-    clusters: Sequence[Hashable],
-    seed: int,
+    above: Sequence[float], below: Sequence[float], clusters: Sequence[Hashable], seed: int
 ) -> Estimate:
-    """sum(numerators) / sum(denominators) over samples, with its percentile bootstrap interval,
-    whole clusters resampled together. Without a second cluster there is no interval.
+    """sum(above) / sum(below) over samples, with its percentile bootstrap interval, whole clusters
+    resampled together. Without a second cluster there is no interval.
     """
-    if not sum(denominators):
+    if not sum(below):
         return Estimate(None)
-    sums = cluster_sums(np.array([numerators, denominators], dtype=float).T, clusters)
-    top, below = sums.sum(axis=0)
+    sums = cluster_sums(np.array([above, below], dtype=float).T, clusters)
+    top, size = sums.sum(axis=0)
     if len(sums) < 2:
-        return Estimate(float(top / below))
+        return Estimate(float(top / size))
     totals = resampled_sums(sums, seed)
     known = totals[totals[:, 1] > 0]
-    return Estimate(float(top / below), *percentiles(known[:, 0] / known[:, 1]))
+    return Estimate(float(top / size), *percentiles(known[:, 0] / known[:, 1]))
 
 
 def cluster_sums(rows: Sequence[Sequence[float]] | Floats, clusters: Sequence[Hashable]) -> Floats:

@@ -38,17 +38,17 @@ HOW = (
 )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Run(Unit):
     """One candidate on one data set, as the run that `settings` describe. `failed` says why
     configurations could not be run.
     """
 
-    part: Part = field(kw_only=True)
-    candidate: Candidate = field(kw_only=True)
-    data: BenchData = field(kw_only=True)
-    settings: BenchSettings = field(kw_only=True)
-    failed: dict[str, str] = field(default_factory=dict, kw_only=True)
+    part: Part
+    candidate: Candidate
+    data: BenchData
+    settings: BenchSettings
+    failed: dict[str, str] = field(default_factory=dict)
 
     @functools.cached_property
     def plan(self) -> Plan | None:
@@ -111,17 +111,12 @@ def make_units(suite: Suite, out: Path, changes: dict[str, Any]) -> list[Run]:
 
 
 def opened(
-    suite: Suite,
-    out: Path,
-    changes: dict[str, Any],
-    *,
-    resume: bool = False,
-    overwrite: bool = False,
+    suite: Suite, out: Path, flags: dict[str, Any], *, resume: bool = False, overwrite: bool = False
 ) -> list[Run]:
-    """The units of a suite in its folder, which whoever calls holds; `changes` are settings of the
+    """The units of a suite in its folder, which whoever calls holds; `flags` are settings of the
     command line. Raises PlannerError, also when data changed since an earlier session.
     """
-    units = make_units(suite, out, changes)
+    units = make_units(suite, out, flags)
     folder.check_folder(out, (SUITE,), resume=resume, overwrite=overwrite)
     if overwrite:
         (out / SUITE).unlink(missing_ok=True)

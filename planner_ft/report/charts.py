@@ -28,6 +28,7 @@ HEATS = 6  # shades of a count, beside none
 WORDS: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
 LEVELS: Record = WORDS["levels"]
 
+Counts = Mapping[str, Sequence[int | None]]  # by the heading of a row
 Kind = Literal["bars", "lines", "dots", "matrix"]
 
 
@@ -107,11 +108,7 @@ def _f1(tests: TestSet) -> Chart:
 
 
 def _matrix(
-    tests: TestSet,
-    kind: str,
-    heads: Sequence[str],
-    counts: Mapping[str, Sequence[int | None]],
-    **values: object,
+    tests: TestSet, kind: str, heads: Sequence[str], counts: Counts, **values: object
 ) -> Chart:
     """Rows of counts, shaded."""
     largest = max((count or 0 for of_row in counts.values() for count in of_row), default=0) or 1

@@ -19,12 +19,7 @@ LONGEST = 40  # characters of a text that is read as one quantity
 
 
 def values_agree(
-    given: Any,
-    stated: Any,
-    parameter: Parameter | None,
-    vocabulary: Vocabulary,
-    *,
-    loose: bool = False,
+    given: Any, stated: Any, known: Parameter | None, vocabulary: Vocabulary, *, loose: bool = False
 ) -> bool:
     """Whether a predicted value is the stated one.
 
@@ -39,15 +34,15 @@ def values_agree(
     `loose` asks for the content and not for the form: a list of texts is a set, and a text with a
     unit ("5 min") is the number that it means in the parameter's unit.
     """
-    kind = parameter.type if parameter is not None else None
+    kind = known.type if known is not None else None
     if kind == "polygon":
         return _rings_agree(given, stated, vocabulary)
     if loose and kind == "texts" and all(map(_are_texts, (given, stated))):
         return set(map(normalised, given)) == set(map(normalised, stated))
     if kind == "id":
         given, stated = str(given), str(stated)
-    if loose and parameter is not None and isinstance(given, str) and is_number(stated):
-        given = _measured(given, parameter.unit)
+    if loose and known is not None and isinstance(given, str) and is_number(stated):
+        given = _measured(given, known.unit)
     if is_place(given) and is_place(stated):
         return _places_agree(given, stated, vocabulary)
     if isinstance(stated, list):
