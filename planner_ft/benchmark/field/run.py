@@ -71,10 +71,6 @@ class Field:
     kind, load = "field", staticmethod(load_cases)
     files: tuple[str, ...] = (RESULTS, PLANS, TABLE)
 
-    def lines(self, _row: Row) -> Iterator[Record]:
-        """Lines of scores.jsonl: none, results.json has every case."""
-        yield from ()
-
     def record(self, one: Row) -> Record:
         kinds = {kind: _counts(some) for kind, some in self._kinds(one)}
         cases = []
@@ -164,9 +160,6 @@ class Demands:
             lines.append(row(one.name, str(found["demands"]), *rates, warned))
         return Table("", columns, lines, title="Both agents.", caption=caption)
 
-    def below(self, _rows: Sequence[Row]) -> str:
-        return ""
-
 
 def _counts(judged: Sequence[Judged]) -> Record:
     """How many are right, of how many, with the interval of the rate, and what is dangerous."""
@@ -239,9 +232,10 @@ def run_cases(
         agents={one.name: one.agents for one in rows},
     )
     table = bench.table(rows)
-    if SCORES in bench.files:
+    if isinstance(bench, Demands):
         files.write_jsonl(out / SCORES, [line for one in rows for line in bench.lines(one)])
-    files.write_text(out / TABLE, markdown_table(table) + bench.below(rows))
+    failed = bench.below(rows) if isinstance(bench, Field) else ""
+    files.write_text(out / TABLE, markdown_table(table) + failed)
     record: Record = {"rows": [bench.record(one) for one in rows], "manifest": manifest}
     files.write_json(out / RESULTS, record)
     return table
