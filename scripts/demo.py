@@ -53,7 +53,7 @@ def figures(one: Row) -> str:
 def verdict(results: Results, first: str, second: str, metric: str) -> str:
     """What the comparison says of the second configuration."""
     for one in results.contrasts["configuration"]:
-        ends = one.first.split()[-1], one.second.split()[-1], one.paired.metric
+        ends = one.first.split()[-1], one.second.split()[-1], one.metric
         if ends == (first, second, metric):
             chance = one.verdict in ("better", "worse")
             return f"{one.verdict} beyond chance" if chance else f"{one.verdict} (95 %)"

@@ -91,8 +91,8 @@ def compare_runs(
             way = "compare runs of the same data"
             raise PlannerError(f"{first.name} and {second.name} have no sample in common; {way}")
         for metric in asked:
-            one = paired(metric, first.scores, second.scores, seed)
-            found.append((first.name, second.name, one))
+            names = first.name, second.name
+            found.append(paired(metric, first.scores, second.scores, seed, names))
     files = len({str(run.data.get("sha256")) for run in runs.values()})
     named = {one.name: one for pair in pairs for one in pair}
     about = {"rows": named.values(), "files": files, "pairs": pairs, "metrics": asked}
@@ -197,7 +197,7 @@ def print_report(report: Report, console: Console) -> None:
 def notes(report: Report) -> list[str]:
     """What a reader must know to read the comparison rightly."""
     count = sum(comparison.p_adjusted is not None for comparison in report.comparisons)
-    families = max((comparison.paired.families for comparison in report.comparisons), default=0)
+    families = max((comparison.families for comparison in report.comparisons), default=0)
     how = {"count": count, "families": families, "seed": report.seed}
     return [*sentences("comparison", part="how", explained=EXPLAINED, **how), *report.notes]
 
@@ -206,14 +206,14 @@ def _tables(report: Report, *, raw: bool = True) -> list[Table]:
     """A table per pair of rows, a row per metric; `raw` shows p before its adjustment, too."""
     rows: dict[str, list[TableRow]] = {}
     for one in report.comparisons:
-        metric, found = METRIC[one.paired.metric], one.paired
+        metric = METRIC[one.metric]
         shown: list[Cell | str] = [
             figure(value, scale=metric.scale, decimals=metric.decimals)
-            for value in (found.first, found.second)
+            for value in (one.first_value, one.second_value)
         ]
-        shown += [replace(one.difference(), mark=""), *([p_text(found.p)] if raw else [])]
+        shown += [replace(one.cell(), mark=""), *([p_text(one.p)] if raw else [])]
         verdict = f"{one.mark} {one.verdict}".strip()
         of_pair = rows.setdefault(f"{one.second} against {one.first}", [])
-        of_pair.append(row(metric.name, str(found.n), *shown, p_text(one.p_adjusted), verdict))
+        of_pair.append(row(metric.name, str(one.n), *shown, p_text(one.p_adjusted), verdict))
     heads = ("n", "against", "this", "difference", *(["p"] if raw else []), "p, Holm", "")
     return [Table("Metric", heads, of_pair, title=title) for title, of_pair in rows.items()]

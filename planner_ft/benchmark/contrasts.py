@@ -47,8 +47,8 @@ def contrasts(
     for question, asked in wanted.items():
         pairs = []
         for first, second, metric in asked:
-            one = paired(metric, everything[first], everything[second], seed)
-            pairs.append((system_key(first), system_key(second), one))
+            names = system_key(first), system_key(second)
+            pairs.append(paired(metric, everything[first], everything[second], seed, names))
         found[question] = adjusted(pairs)
     return found
 
@@ -101,9 +101,9 @@ def _with_best(rows: Mapping[System, Scores]) -> Wanted:
 
 def marks(found: Contrasts) -> dict[tuple[str, str], str]:
     """Marks by (system, metric): the verdict beside its reference; ★: best of its column."""
-    marked = {(one.second, one.paired.metric): one.mark for one in found["configuration"]}
-    best = {(one.first, one.paired.metric) for one in found["best"]}
-    best |= {(one.second, one.paired.metric) for one in found["best"] if one.verdict in NOT_WORSE}
+    marked = {(one.second, one.metric): one.mark for one in found["configuration"]}
+    best = {(one.first, one.metric) for one in found["best"]}
+    best |= {(one.second, one.metric) for one in found["best"] if one.verdict in NOT_WORSE}
     return marked | {key: marked.get(key, "") + BEST for key in best}
 
 

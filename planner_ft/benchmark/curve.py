@@ -208,18 +208,18 @@ def _point(size: int, runs: Sequence[Scores]) -> Point:
 def compared(found: Sequence[Point]) -> list[list[Comparison]]:
     """The largest size against each smaller one by SHOWN, paired, p adjusted over the three."""
     *smaller, last = found
-    made = {
-        one.size: [paired(METRIC[name], one.scores, last.scores, SEED) for name in SHOWN]
-        for one in smaller
-    }
-    return [adjusted([(str(n), str(last.size), one) for one in of]) for n, of in made.items()]
+    made = []
+    for one in smaller:
+        how = one.scores, last.scores, SEED, (str(one.size), str(last.size))
+        made.append(adjusted([paired(METRIC[name], *how) for name in SHOWN]))
+    return made
 
 
 def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], what: str) -> str:
     """How many more samples (`what`) are worth writing, in words (templates/curve.txt.j2)."""
     final = comparisons[-1] if comparisons else ()
     better = [one for one in final if one.verdict == "better"]
-    gains = [(METRIC[one.paired.metric].heading, one.difference()) for one in better]
+    gains = [(METRIC[one.metric].heading, one.cell()) for one in better]
     as_good = (
         point.size
         for point, pairs in zip(found, comparisons, strict=False)
@@ -232,7 +232,7 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
         gains=[f"{name} {replace(one, mark='').plain()}" for name, one in gains],
         verdicts=list(dict.fromkeys(one.verdict for one in final)),
         enough=next(as_good, None),
-        room=max((100 * (one.paired.difference.high or 0) for one in final), default=0),
+        room=max((100 * (one.difference.high or 0) for one in final), default=0),
     )
     return text.strip()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -34,26 +34,53 @@ EXPLAINED = (
 
 
 @dataclass(frozen=True)
-class Paired:
-    """One metric of two systems over the `n` samples that both answered.
+class Comparison:
+    """`second` against `first` by one metric of the `n` samples that both answered.
 
-    `first` and `second` are its values, `difference` is second minus first (95 % interval, whole
-    families resampled), `p` the two-sided probability of as large a difference if it made no
-    difference which system answered, families being swapped whole. `p_mcnemar` is the exact McNemar
-    test of a rate, which takes all samples for independent: where they are, `p` is the same.
+    `difference` is second minus first (95 % interval, whole families resampled), `p` the two-sided
+    probability of as large a difference if it made no difference which system answered, families
+    being swapped whole. `p_mcnemar` is the exact McNemar test of a rate, which takes all samples
+    for independent: where they are, `p` is the same. `p_adjusted` is Holm's over the same table.
     """
 
+    first: str
+    second: str
     metric: str
-    n: int
-    families: int
-    first: float | None
-    second: float | None
+    first_value: float | None = None
+    second_value: float | None = None
+    n: int = 0
+    families: int = 0
     difference: statistics.Estimate = UNKNOWN
     p: float | None = None
     p_mcnemar: float | None = None
+    p_adjusted: float | None = None
+
+    @property
+    def verdict(self) -> Verdict:
+        return verdict(self.metric, self.difference, self.p_adjusted)
+
+    @property
+    def mark(self) -> str:
+        return MARKS[self.verdict]
+
+    def cell(self) -> Cell:
+        """The difference with its interval and mark."""
+        return difference_cell(self.metric, self.difference, self.mark)
+
+    def to_json(self) -> dict[str, Any]:
+        """As results.json and comparison.json have it."""
+        return {**asdict(self), "verdict": self.verdict}
+
+    @classmethod
+    def from_json(cls, record: Mapping[str, Any]) -> Comparison:
+        """A comparison as `to_json` wrote it."""
+        known = {one.name: record[one.name] for one in fields(cls)}
+        return cls(**known | {"difference": statistics.Estimate(**record["difference"])})
 
 
-def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired:
+def paired(
+    metric: Metric, first: Answers, second: Answers, seed: int, names: tuple[str, str] = ("", "")
+) -> Comparison:
     """Compare by a metric, over samples with a value in both; repeats are averaged first."""
     families, terms = [], []
     for name in (name for name in first if name in second):
@@ -62,11 +89,12 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
             families.append(str(first[name][0].get("family") or first[name][0].get("id")))
             terms.append((*one, *other))
     if not terms:
-        return Paired(metric.name, 0, 0, None, None)
+        return Comparison(*names, metric.name)
     sums = statistics.cluster_sums(terms, families)
     before, after = (float(value) if np.isfinite(value) else None for value in _values(sums.sum(0)))
+    found = Comparison(*names, metric.name, before, after, len(terms), len(sums))
     if before is None or after is None:
-        return Paired(metric.name, len(terms), len(sums), before, after)
+        return found
     differs = [tuple(term[:2]) != tuple(term[2:]) for term in terms]
     difference = statistics.Estimate(after - before)
     if not any(differs) and metric.fraction:
@@ -76,10 +104,9 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
         difference = statistics.Estimate(after - before, -most, most)
     elif len(sums) > 1:
         one, other = _values(statistics.resampled_sums(sums, seed))
-        known = (found := other - one)[np.isfinite(found)]
-        difference = statistics.Estimate(
-            after - before, *statistics.percentiles(known)
-        )  # Efron 1979
+        known = (change := other - one)[np.isfinite(change)]
+        bounds = statistics.percentiles(known)  # Efron 1979
+        difference = statistics.Estimate(after - before, *bounds)
     mcnemar: float | None = None
     if metric.kind == "rate" and all(value in (0, 1) for term in terms for value in term):
         p = exact_swaps(sums[:, 2] - sums[:, 0])
@@ -87,7 +114,7 @@ def paired(metric: Metric, first: Answers, second: Answers, seed: int) -> Paired
         mcnemar = exact_mcnemar(lost, won)
     else:
         p = swaps(sums, seed)
-    return Paired(metric.name, len(terms), len(sums), before, after, difference, p, mcnemar)
+    return replace(found, difference=difference, p=p, p_mcnemar=mcnemar)
 
 
 def _terms(metric: Metric, scores: Sequence[Score]) -> tuple[float, float] | None:
@@ -171,43 +198,6 @@ def holm(values: Sequence[float | None]) -> list[float | None]:
     return [None if value is None else next(each) for value in values]
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """`second` against `first` by one metric; `p_adjusted` is Holm's over the same table."""
-
-    first: str
-    second: str
-    paired: Paired
-    p_adjusted: float | None
-
-    @property
-    def verdict(self) -> Verdict:
-        return verdict(self.paired.metric, self.paired.difference, self.p_adjusted)
-
-    @property
-    def mark(self) -> str:
-        return MARKS[self.verdict]
-
-    def difference(self) -> Cell:
-        """The difference with its interval and mark."""
-        return difference_cell(self.paired.metric, self.paired.difference, self.mark)
-
-    def to_json(self) -> dict[str, Any]:
-        """As results.json and comparison.json have it."""
-        values = asdict(self.paired)
-        named = {"first": self.first, "second": self.second, "metric": values.pop("metric")}
-        named |= {f"{end}_value": values.pop(end) for end in ("first", "second")}
-        return {**named, **values, "p_adjusted": self.p_adjusted, "verdict": self.verdict}
-
-    @classmethod
-    def from_json(cls, record: Mapping[str, Any]) -> Comparison:
-        """A comparison as `to_json` wrote it."""
-        values = {key: record[key] for key in ("metric", "n", "families", "p", "p_mcnemar")}
-        values |= {end: record[f"{end}_value"] for end in ("first", "second")}
-        found = Paired(**values, difference=statistics.Estimate(**record["difference"]))
-        return cls(record["first"], record["second"], found, record["p_adjusted"])
-
-
 def verdict(name: str, difference: statistics.Estimate, p_adjusted: float | None) -> Verdict:
     """Real: adjusted p under 0.05; equal: known to differ by less than MARGIN; else unknown."""
     metric = METRIC.get(name)
@@ -224,10 +214,10 @@ def verdict(name: str, difference: statistics.Estimate, p_adjusted: float | None
     return "equal" if within and (metric is None or metric.fraction) else "not told apart"
 
 
-def adjusted(found: Sequence[tuple[str, str, Paired]]) -> list[Comparison]:
-    """Comparisons (first, second, figures) of one table, their p-values adjusted together."""
-    ps = holm([one.p for _first, _second, one in found])
-    return [Comparison(*one, p) for one, p in zip(found, ps, strict=True)]
+def adjusted(found: Sequence[Comparison]) -> list[Comparison]:
+    """Comparisons of one table, their p-values adjusted together."""
+    ps = holm([one.p for one in found])
+    return [replace(one, p_adjusted=p) for one, p in zip(found, ps, strict=True)]
 
 
 def p_text(p: float | None) -> str:

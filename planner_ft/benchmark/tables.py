@@ -183,8 +183,8 @@ def difference_tables(found: Contrasts) -> Iterator[Table]:
         return f"{one.second} against {one.first}"
 
     if ours := found["configuration"]:
-        columns = {one.paired.metric: METRIC[one.paired.metric].heading for one in ours}
-        by_metric = {(of_pair(one), one.paired.metric): one.difference() for one in ours}
+        columns = {one.metric: METRIC[one.metric].heading for one in ours}
+        by_metric = {(of_pair(one), one.metric): one.cell() for one in ours}
         yield _pivot("Difference, paired by sample", by_metric, columns)
     if beside := found["baseline"]:
         columns = {
@@ -192,9 +192,7 @@ def difference_tables(found: Contrasts) -> Iterator[Table]:
             for metric in DECISIVE
             for first in dict.fromkeys(one.first for one in beside)
         }
-        cells = {
-            (one.second, f"{one.paired.metric} {one.first}"): one.difference() for one in beside
-        }
+        cells = {(one.second, f"{one.metric} {one.first}"): one.cell() for one in beside}
         yield _pivot("Against the baselines", cells, columns)
 
 

@@ -125,10 +125,10 @@ def _differences(results: Results) -> list[Table]:
     rows, names = [], {one.key: one.name for one in (*results.rows, *results.baselines)}
     for one in (one for found in results.contrasts.values() for one in found):
         ends = [names.get(key) for key in (one.second, one.first)]
-        if one.paired.difference.value is not None and all(ends):
-            made, p = one.difference(), one.p_adjusted
+        if one.difference.value is not None and all(ends):
+            made, p = one.cell(), one.p_adjusted
             cells = replace(made, mark=""), Cell(p_text(p), bounds=(p, None, None))
-            metric, verdict = METRIC[one.paired.metric].heading, f"{one.mark} {one.verdict}"
+            metric, verdict = METRIC[one.metric].heading, f"{one.mark} {one.verdict}"
             rows.append(row(" against ".join(map(str, ends)), metric, *cells, verdict.strip()))
     caption = "First minus second, paired by sample, with its 95 % interval; p adjusted after Holm"
     heads = ("Metric", "Difference", "p", "Verdict")

@@ -281,6 +281,4 @@ def test_comparisons_are_adjusted_within_each_question(results: Results) -> None
     assert {(one.first, one.second) for one in found["best"]} == {("good lora", "fair lora")}
     assert len(found["baseline"]) == 2 * 3 * 2
     for comparisons in found.values():
-        assert [one.p_adjusted for one in comparisons] == holm(
-            [one.paired.p for one in comparisons]
-        )
+        assert [one.p_adjusted for one in comparisons] == holm([one.p for one in comparisons])

@@ -13,7 +13,6 @@ import pytest
 from planner_ft.benchmark.catalogue import Metric
 from planner_ft.benchmark.paired import (
     Comparison,
-    Paired,
     adjusted,
     difference_cell,
     exact_mcnemar,
@@ -77,7 +76,7 @@ def test_swapping_families_of_one_sample_is_mcnemar() -> None:
     first, second = [0] * 9 + [1] * 2 + [1] * 10, [1] * 9 + [0] * 2 + [1] * 10
     found = paired(RATE, system(first, "right"), system(second, "right"), 0)
     assert found.p == found.p_mcnemar == exact_mcnemar(2, 9)
-    assert (found.n, found.first, found.second) == (
+    assert (found.n, found.first_value, found.second_value) == (
         21,
         pytest.approx(12 / 21),
         pytest.approx(19 / 21),
@@ -143,7 +142,7 @@ def test_a_ratio_is_pooled_and_paired() -> None:
     first = {"a": [{"id": "a", "hits": 1, "tries": 4}], "b": [{"id": "b", "hits": 2, "tries": 2}]}
     second = {"a": [{"id": "a", "hits": 3, "tries": 4}], "b": [{"id": "b", "hits": 0, "tries": 0}]}
     found = paired(RATIO, first, second, 0)
-    assert (found.first, found.second) == (0.5, 0.75)
+    assert (found.first_value, found.second_value) == (0.5, 0.75)
     assert found.difference.value == 0.25 and found.p is not None and 0 < found.p <= 1
 
 
@@ -160,7 +159,7 @@ def test_repeats_of_a_sample_are_averaged_and_unmeasured_ones_left_out() -> None
         "d": [{"id": "d", "right": True}],
     }
     found = paired(RATE, first, second, 0)
-    assert (found.n, found.first, found.second, found.p_mcnemar) == (2, 0.75, 1.0, None)
+    assert (found.n, found.first_value, found.second_value, found.p_mcnemar) == (2, 0.75, 1.0, None)
 
 
 def test_the_interval_of_a_paired_difference_is_the_bootstrap_of_the_differences() -> None:
@@ -181,12 +180,12 @@ def test_the_interval_of_a_paired_difference_is_the_bootstrap_of_the_differences
 
 def test_no_difference_in_few_samples_is_no_equality() -> None:
     few, many = (system([1.0] * count, "f1") for count in (10, 200))
-    (small,), (large,) = (adjusted([("a", "b", paired(MEAN, one, one, 0))]) for one in (few, many))
+    (small,), (large,) = (adjusted([paired(MEAN, one, one, 0)]) for one in (few, many))
     assert small.verdict == "not told apart" and large.verdict == "equal"
-    assert small.paired.difference.value == 0
-    assert small.paired.difference.high == pytest.approx(0.2775, abs=1e-3)
+    assert small.difference.value == 0
+    assert small.difference.high == pytest.approx(0.2775, abs=1e-3)
     pooled = {name: [{"id": name, "hits": 3, "tries": 4}] for name in few}
-    (ratio,) = adjusted([("a", "b", paired(RATIO, pooled, pooled, 0))])
+    (ratio,) = adjusted([paired(RATIO, pooled, pooled, 0)])
     assert ratio.verdict == "not told apart"
 
 
@@ -236,8 +235,8 @@ def test_verdicts_know_which_way_is_better() -> None:
 def test_a_comparison_says_its_verdict_and_is_read_back(
     name: str, difference: tuple[Any, Any, Any], p: float | None, said: str, mark: str
 ) -> None:
-    found = Paired(name, 20, 10, 0.5, 0.7, Estimate(*difference), 0.01, 0.02)
-    comparison = Comparison("a", "b", found, p)
+    figures = 0.5, 0.7, 20, 10, Estimate(*difference), 0.01, 0.02
+    comparison = Comparison("a", "b", name, *figures, p)
     assert (comparison.verdict, comparison.mark) == (said, mark)
     record = comparison.to_json()
     assert Comparison.from_json(record) == comparison
@@ -280,12 +279,12 @@ def test_p_values_as_tables_show_them() -> None:
 
 
 def test_nothing_in_common_or_nothing_to_divide_by_is_no_comparison() -> None:
-    nothing = Paired("parameters", 0, 0, None, None)
+    nothing = Comparison("", "", "parameters")
     assert paired(RATIO, {}, {}, 0) == nothing
     tries = {"a": [{"id": "a", "hits": 0, "tries": 0}], "b": [{"id": "b", "hits": 1, "tries": 2}]}
     other = {"a": [{"id": "a", "hits": 1, "tries": 2}], "c": [{"id": "c", "hits": 1, "tries": 2}]}
-    assert paired(RATIO, tries, other, 0) == Paired("parameters", 1, 1, None, 0.5)
-    assert paired(RATIO, other, tries, 0) == Paired("parameters", 1, 1, 0.5, None)
+    assert paired(RATIO, tries, other, 0) == Comparison("", "", "parameters", None, 0.5, 1, 1)
+    assert paired(RATIO, other, tries, 0) == Comparison("", "", "parameters", 0.5, None, 1, 1)
 
 
 def test_a_single_family_has_a_difference_without_an_interval() -> None:
