@@ -14,7 +14,7 @@ from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC
-from planner_ft.benchmark.contrasts import Scores, by_system
+from planner_ft.benchmark.contrasts import Scores, by_system, sentences
 from planner_ft.benchmark.paired import Comparison, adjusted, paired
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
@@ -28,7 +28,6 @@ from planner_ft.support import files
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import NOTHING, Table, csv_table, markdown_table, row
-from planner_ft.support.templates import text_template
 from planner_ft.training.output import differing
 from planner_ft.training.request import TrainRequest, refusal
 from planner_ft.training.samples import Split, read_split
@@ -142,9 +141,6 @@ class Trained(Unit):
     size: int
     seed: int
 
-    def is_finished(self) -> bool:
-        return (self.folder / UNIT).is_file()
-
     def steps(self) -> Iterator[tuple[str, list[str], Path]]:
         curve, request, here = self.curve, self.curve.request, self.folder
         adapter, vocabulary = here / "adapter", str(request.vocabulary.source)
@@ -225,7 +221,8 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
         for point, pairs in zip(found, comparisons, strict=False)
         if not any(one.verdict == "better" for one in pairs)
     )
-    text = text_template("planner_ft.benchmark", "curve.txt.j2").render(
+    return sentences(
+        "curve",
         what=what,
         sizes=[point.size for point in found],
         tests=len(found[-1].scores),
@@ -233,8 +230,7 @@ def answer(found: Sequence[Point], comparisons: Sequence[Sequence[Comparison]], 
         verdicts=list(dict.fromkeys(one.verdict for one in final)),
         enough=next(as_good, None),
         room=max((100 * (one.difference.high or 0) for one in final), default=0),
-    )
-    return text.strip()
+    )[0]
 
 
 def write_curve(curve: Curve) -> list[Point]:

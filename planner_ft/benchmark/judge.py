@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import METRIC
+from planner_ft.benchmark.contrasts import sentences
 from planner_ft.benchmark.paired import paired
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
@@ -15,7 +16,6 @@ from planner_ft.decoding.forward import SmallModel, small_model
 from planner_ft.decoding.generate import Generation, Method, Query, generate
 from planner_ft.decoding.passes import ModelDecoder
 from planner_ft.prompts import ends_of_answers, render_prompt
-from planner_ft.support.templates import text_template
 from planner_ft.training.checkpoint import JUDGED, Answer, Run
 from planner_ft.training.model import SMALL_MODEL, autocast, evaluating
 from planner_ft.vocabulary.plans import without_working
@@ -80,8 +80,7 @@ class Judge:
         losses = [entry["validation_loss"] for entry in self.run.state.history]
         falling = len(losses) > 1 and losses[-1] <= min(losses)
         known = {"f1": f1, "exact": exact, "n": len(best), "settings": self.run.settings}
-        template = text_template("planner_ft.benchmark", "judge.txt.j2")
-        return template.render(**known, falling=falling).strip()
+        return sentences("judge", **known, falling=falling)[0]
 
 
 def small_form(model: Any, *, adapter: bool) -> SmallModel | None:
