@@ -170,11 +170,9 @@ def render_report(report: Report) -> dict[str, str]:
     """Texts of comparison.md, comparison.csv (unrounded, rates as fractions), comparison.tex."""
     tables, below = _tables(report), notes(report)
     lines: list[list[Any]] = [list(CSV)]
-    for comparison in report.comparisons:
-        values = comparison.to_json()
+    for values in (comparison.to_json() for comparison in report.comparisons):
         values |= values["difference"]
-        values["difference"] = values["value"]
-        lines.append([values[name] for name in CSV])
+        lines.append([values["value" if name == "difference" else name] for name in CSV])
     rows = [one for table in tables for one in (row(table.title, kind="section"), *table.rows)]
     together = replace(tables[0], title="", rows=tuple(rows))
     texts = [*map(written.markdown_table, tables), *(f"- {note}" for note in below)]

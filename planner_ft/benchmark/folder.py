@@ -68,7 +68,7 @@ def clear(folder: Path, names: Sequence[str] = ALL) -> None:
         (folder / name).unlink(missing_ok=True)
 
 
-class RecordLog:
+class RecordLog(contextlib.AbstractContextManager["RecordLog"]):
     """An append-only JSONL file of records with `key` and `id`, which the processes of a run share.
     Opening drops a last line that a killed run left without its end, and reads the records. Raises
     PlannerError when a line is damaged, or the file cannot be written.
@@ -134,9 +134,6 @@ class RecordLog:
 
     def close(self) -> None:
         self.stream.close()
-
-    def __enter__(self) -> RecordLog:
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.close()

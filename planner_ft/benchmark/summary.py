@@ -9,6 +9,7 @@ from typing import Any
 
 from planner_ft.benchmark import statistics
 from planner_ft.benchmark.catalogue import METRIC, Metric
+from planner_ft.benchmark.statistics import Estimate
 from planner_ft.vocabulary.plans import is_number
 
 OF_GROUPS = ("f1", "exact_sequence", "parameters", "whole_plan", "strict_valid")
@@ -20,9 +21,7 @@ Scores = Sequence[Mapping[str, Any]]  # lines of scores.jsonl
 Term = tuple[float, float, str]  # numerator, denominator and family
 
 
-def summarise(
-    scores: Scores, seed: int, names: Iterable[str] = METRIC
-) -> dict[str, statistics.Estimate]:
+def summarise(scores: Scores, seed: int, names: Iterable[str] = METRIC) -> dict[str, Estimate]:
     """Metrics over samples, 95 %, families as such: Wilson for rates, bootstrap for others."""
     return {name: _estimate(METRIC[name], _terms(METRIC[name], scores), seed) for name in names}
 
@@ -37,10 +36,10 @@ def _terms(metric: Metric, scores: Scores) -> list[Term]:
     return [(*terms, family) for terms, family in found if terms]
 
 
-def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> statistics.Estimate:
+def _estimate(metric: Metric, terms: Sequence[Term], seed: int) -> Estimate:
     """The interval is that of a rate where all samples agree: a bootstrap then knows no doubt."""
     if not terms:
-        return statistics.Estimate(None)
+        return Estimate(None)
     tops, belows, families = zip(*terms, strict=True)
     if metric.kind == "rate":
         return statistics.clustered_rate([top == 1 for top in tops], families)

@@ -14,7 +14,7 @@ from planner_ft.benchmark import layout
 from planner_ft.benchmark.catalogue import COLUMNS, MAIN, METRIC, RIGHT, SECTIONS, Columns
 from planner_ft.benchmark.contrasts import DECISIVE, Contrasts, baseline_name
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
-from planner_ft.benchmark.paired import MARKS, Comparison, difference_cell, verdict
+from planner_ft.benchmark.paired import MARKS, difference_cell, verdict
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.support import tables as written
@@ -178,14 +178,10 @@ def cost_tables(known: Mapping[str, Figures]) -> Iterator[Table]:
 
 def difference_tables(found: Contrasts) -> Iterator[Table]:
     """Differences between the configurations of a model, and of every row from the baselines."""
-
-    def of_pair(one: Comparison) -> str:
-        return f"{one.second} against {one.first}"
-
     if ours := found["configuration"]:
         columns = {one.metric: METRIC[one.metric].heading for one in ours}
-        by_metric = {(of_pair(one), one.metric): one.cell() for one in ours}
-        yield _pivot("Difference, paired by sample", by_metric, columns)
+        cells = {(f"{one.second} against {one.first}", one.metric): one.cell() for one in ours}
+        yield _pivot("Difference, paired by sample", cells, columns)
     if beside := found["baseline"]:
         columns = {
             f"{metric} {first}": f"{METRIC[metric].heading} against {baseline_name(first)}"

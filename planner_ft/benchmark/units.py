@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -156,7 +157,7 @@ def arguments(settings: BenchSettings) -> list[str]:
     return [*found, "--resume", "--no-report"]
 
 
-class Process:
+class Process(AbstractContextManager["Process"]):
     """A unit's process, ended with its parent and the `with` block, its output in a log."""
 
     def __init__(self, arguments: list[str], log: Path, processes: int = 1) -> None:
@@ -196,9 +197,6 @@ class Process:
         lines = [line.strip() for line in text.splitlines() if line.strip()]
         ours = [line for line in lines if line.startswith("plannerft: ")] or lines
         return ours[-1].removeprefix("plannerft: ") if ours else f"its process ended with {code}"
-
-    def __enter__(self) -> Process:
-        return self
 
     def __exit__(self, *_: object) -> None:
         if self.running():
