@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -49,11 +48,6 @@ class Job:
     sampling: Sampling | None = None
 
     @property
-    def with_vocabulary(self) -> bool:
-        """Whether prompts list the vocabulary."""
-        return bool(self.system.with_vocabulary)
-
-    @property
     def key(self) -> str:
         """A digest of `parts`: the key for reuse of predictions."""
         return sha256_text(json.dumps(self.parts, sort_keys=True))[:20]
@@ -94,10 +88,6 @@ class Plan:
     vocabulary: Vocabulary
     device: str
     jobs: tuple[Job, ...]
-
-    def by_candidate(self) -> list[list[Job]]:
-        """The jobs of each candidate."""
-        return [list(jobs) for _name, jobs in groupby(self.jobs, lambda job: job.candidate.name)]
 
 
 def make_plan(settings: BenchSettings) -> Plan:
@@ -208,7 +198,6 @@ def _job(
     folder = loading.require_folder(candidate)
     used = chosen.get(candidate.name) if configuration.adapter else None
     quantization = candidate.stored_as(settings.level, settings.quantization)
-    with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, used)
     parts = {
         "model": weights_sha256(folder),
         "tokenizer": sha256_tree(folder, TOKENIZER_FILES),
@@ -219,7 +208,7 @@ def _job(
         *(candidate.name, configuration.name, candidate.row_name, candidate.published),
         is_standin=candidate.is_standin,
         pretrained=candidate.knows(vocabulary),
-        with_vocabulary=with_vocabulary,
+        with_vocabulary=adapters.prompt_has_vocabulary(candidate, vocabulary, used),
         adapter=str(used) if used else None,
         seen=seen.get(candidate.name, 0) if used else 0,
     )

@@ -9,6 +9,7 @@ import contextlib
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -48,7 +49,8 @@ class _Run:
 
     def every_candidate(self) -> None:
         """Make this process's share of all answers, candidate by candidate."""
-        for jobs in self.plan.by_candidate():
+        for _name, of_candidate in groupby(self.plan.jobs, lambda job: job.candidate.name):
+            jobs = list(of_candidate)
             self._candidate(jobs)
             if self.latencies is not None and self.plan.settings.planning_samples:
                 costs = time_planning(self.plan, jobs, self.progress)

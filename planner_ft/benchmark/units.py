@@ -39,10 +39,6 @@ class Unit:
     weight: float = 1.0
     before: float = 0.0
 
-    @property
-    def work(self) -> float:
-        return self.before + self.weight * self.queries
-
     def written(self) -> int:
         """Answers and timed queries that are there. Folders may go while it looks: trainings drop
         their older checkpoints.
@@ -141,7 +137,8 @@ class Units:
         """Seconds for the work that is left, at the pace of what was done since the beginning."""
         done = [(one, one.done()) for one in self.units]
         coming = [(one, so_far) for one, so_far in done[index:] if one.name not in self.finished]
-        ahead = sum(max(0.0, one.work - so_far) for one, so_far in coming)
+        work = ((one.before + one.weight * one.queries, so_far) for one, so_far in coming)
+        ahead = sum(max(0.0, whole - so_far) for whole, so_far in work)
         made = sum(so_far for _one, so_far in done) - before
         return seconds * ahead / made if made > 0 else None
 

@@ -89,7 +89,7 @@ class EndpointSource:
     def request(self, job: Job, sample: Sample) -> dict[str, Any]:
         """The body of a request, greedy or sampled, with the messages that candidates get."""
         level, vocabulary = self.plan.settings.level, self.plan.vocabulary
-        told = job.with_vocabulary
+        told = bool(job.system.with_vocabulary)
         messages = prompt_messages(level, sample.record, vocabulary, with_vocabulary=told)
         body = {**self._body(messages, self.plan.settings.token_limit), **self.fields}
         if (drawn := job.sampling) is not None:

@@ -63,8 +63,9 @@ class EngineSource:
 
         calibration = None
         if job.sampling is None:
-            how = job.configuration, job.adapter, job.quantization, job.with_vocabulary
-            agent = Agent(self.level, job.candidate, *how)
+            how = job.configuration, job.adapter, job.quantization
+            told = bool(job.system.with_vocabulary)
+            agent = Agent(self.level, job.candidate, *how, told)
             held_for = agent.held_for(self.plan.vocabulary)
             calibration = read_calibration(agent.calibration, held_for)[0]
         for index, answer, size in in_batches(ask, lengths, self.batch, is_out_of_memory):
@@ -107,7 +108,7 @@ class EngineSource:
         self.engine.release()
 
     def _queries(self, job: Job, samples: Sequence[Sample]) -> list[Query]:
-        told = job.with_vocabulary
+        told = bool(job.system.with_vocabulary)
         return [self.engine.query(self.level, one.record, with_vocabulary=told) for one in samples]
 
 
