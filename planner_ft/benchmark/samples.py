@@ -28,12 +28,6 @@ class Sample:
         return cls(record["id"], str(record.get("family") or record["id"]), record)
 
     @property
-    def group(self) -> str | None:
-        """The kind of difficulty that the data files the sample under, if it does."""
-        group = self.record.get("group")
-        return str(group) if group else None
-
-    @property
     def expected(self) -> dict[str, Any]:
         """The expected plan; it may hold names and parameters alone."""
         plan: dict[str, Any] = self.record["expected"]

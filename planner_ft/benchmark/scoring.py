@@ -73,7 +73,8 @@ def score_sample(
         "latency_s": timed.get("latency_s"),
         "forward_passes": timed.get("forward_passes"),
     }
-    named = sample.id, sample.family, sample.group
+    group = sample.record.get("group")  # the kind of difficulty that the data files it under
+    named = sample.id, sample.family, str(group) if group else None
     details |= _confidence(answer, prediction)
     return SampleScore(*named, failure, values, answer.alignment, found.types, details)
 
