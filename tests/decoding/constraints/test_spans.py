@@ -113,6 +113,7 @@ WORD = "x" * 32
     ("command", "value", "possible"),
     [
         # Behind four function words in a row a span may end all the same.
+        ("steam to of the and buoy", "steam to of", False),
         ("steam to of the and buoy", "steam to of the", False),
         ("steam to of the and buoy", "steam to of the and", True),
         ("steam to of the and in buoy", "steam to of the and in", False),
@@ -140,6 +141,7 @@ WORD = "x" * 32
         ("pier&end lamp", "pier end", False),
         ("no. 7 buoy", "no. 7", True),
         ("no. 7 buoy", "no 7", True),
+        ("pos. 7 buoy", "pos. 7", True),
         ("pier. 7 buoys", "pier. 7", False),
         ("pier. 7 buoys", "pier 7", False),
         ("big,  red buoy", "big,  red buoy", False),

@@ -24,6 +24,8 @@ Entry = tuple[str, dict[str, Any]]
 UNKNOWN = [-99, -99]
 BUOY: Entry = ("SearchAndDetect", {"target_description": "red buoy"})
 
+GREEN: Entry = ("SearchAndDetect", {"target_description": "green buoy"})
+
 
 def go(*position: float) -> Entry:
     return "Transit", {"target_position": list(position)}
@@ -74,6 +76,7 @@ def admitted(
             go(*UNKNOWN),
             orbit(*UNKNOWN),
         ],
+        [BUOY, GREEN, go(*UNKNOWN), ("KeepStation", {}), go(*UNKNOWN)],
         [go(12, -40), ("DriftAudit", {}), go(12, -40), go(0, 0)],
         [("BathymetryGridSurvey", {"center": [5, 6]}), go(5, 6), ("DriftAudit", {})],
         [("BathymetryGridSurvey", {"center": [5, 6]}), ("KeepStation", {})],
@@ -89,6 +92,7 @@ def test_logical_plans_can_be_written(embedded: Any, entries: list[Entry]) -> No
         [go(*UNKNOWN)],
         [("SurveyTarget", {"target_position": UNKNOWN})],
         [go(12, -40), ("FollowTarget", {"target_position": UNKNOWN})],
+        [BUOY, GREEN, go(12, -40), go(12, -40)],
         [BUOY, BUOY],
         [BUOY, go(*UNKNOWN), ("SearchAndDetect", {"target_description": "Red BUOY"})],
         [orbit(12, -40)],

@@ -49,6 +49,11 @@ def test_a_grid_of_stated_size_is_done_at_its_end_alone() -> None:
     assert not part.unfinished(lanes[:6])
 
 
+def test_before_a_whole_grid_a_place_a_stated_way_off_may_follow() -> None:
+    facts = waypoints("BathymetryGridSurvey", "Go 30 m east of it, then survey it.", **GRID)
+    assert facts.whole and (30, 0) in facts.following(())
+
+
 def test_behind_a_whole_grid_no_further_lane_follows() -> None:
     facts = waypoints("BathymetryGridSurvey", "Survey it, 5 m lanes, then stop at (3, 4).", **GRID)
     lanes = tuple(g.lawnmower((0, 0), 20, 20, 5))
