@@ -68,31 +68,19 @@ def language(vocabulary: Vocabulary) -> Language:
     english = read_toml(ENGLISH)
     questions = english.pop("questions")
     own = vocabulary.beside(ONTOLOGY)
-    problems = list(_problems(own, vocabulary))
-    if problems:
+    if problems := list(_problems(own, vocabulary)):
         raise PlannerError(f"{vocabulary.name}{ONTOLOGY}: " + "; ".join(problems))
-    asks = (
-        Ask(
-            pattern(entry["words"]),
-            frozenset(entry["tasks"]),
-            entry.get("sends", False),
-            pattern([*entry["words"], *entry.get("nouns", ())]),
-            pattern([*entry["words"], *entry.get("nouns", ()), *entry["sure"]])
-            if "sure" in entry
-            else None,
-        )
-        for entry in own.get("ask", ())
-    )
+    asks, data = [], []
+    for entry in own.get("ask", ()):
+        said, named = entry["words"], [*entry["words"], *entry.get("nouns", ())]
+        sure = pattern([*named, *entry["sure"]]) if "sure" in entry else None
+        tasks, sends = frozenset(entry["tasks"]), entry.get("sends", False)
+        asks.append(Ask(pattern(said), tasks, sends, pattern(named), sure))
+    for entry in own.get("data", ()):
+        skills, ruled_out = frozenset(entry.get("skills", ())), bool(entry.get("ruled_out", False))
+        data.append(Data(pattern(entry["words"]), skills, ruled_out))
     words = {name: pattern(entry["words"]) for name, entry in english.items()}
     sensors = pattern(own.get("sensor", {}).get("words", ()))
-    data = (
-        Data(
-            pattern(entry["words"]),
-            frozenset(entry.get("skills", ())),
-            bool(entry.get("ruled_out", False)),
-        )
-        for entry in own.get("data", ())
-    )
     return Language(words, tuple(asks), sensors, tuple(data), questions)
 
 

@@ -77,9 +77,7 @@ def _targets(command: str, spoken: Language) -> Iterator[Span]:
 
 
 def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]:
-    """The text cut behind sentences, or words where a sentence is too long, with where each piece
-    begins.
-    """
+    """(start, piece) of the text cut behind sentences, or words where a sentence is too long."""
     start = 0
     while len(text) - start > longest:
         window = text[start : start + longest]

@@ -11,9 +11,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from planner_ft.facts import geometry as derived
 from planner_ft.facts import places, reading
-from planner_ft.facts.geometry import Point
+from planner_ft.facts.geometry import CLOSE, Ground, Point, sector_counts, turned
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import Position, read_positions
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
@@ -77,18 +76,20 @@ class Input:
         if parameter.type == "position":
             ground = self.ground if place else None
             away = (ground.is_way_off(_point(value), at) for at in ground.places) if ground else ()
-            follows = place and (any(away) or self._is_worked_out(_point(value)))
+            follows = place and (
+                any(away) or any(math.dist(value, at) <= CLOSE for at in self.worked_places)
+            )
         else:
             follows = is_number(value) and any(near(value, one) for one in self.values(parameter))
         return Evidence("derived") if follows else found
 
     @functools.cached_property
-    def ground(self) -> derived.Ground | None:
+    def ground(self) -> Ground | None:
         """What waypoints are derived from; None where the text cannot be read with certainty."""
         return None if self.facts.loose else self._loose_ground
 
     @functools.cached_property
-    def _loose_ground(self) -> derived.Ground | None:
+    def _loose_ground(self) -> Ground | None:
         """The same, also where a coordinate may have no partner: "200 m north"."""
         facts, home = self.facts, _point(self.vocabulary.home)
         lengths = {number.value for number in facts.numbers("m") if number.value > 0}
@@ -110,19 +111,19 @@ class Input:
             for name in ("width", "length", "spacing")
         )
         sizes = ((width, length),) if width and length else ()
-        return derived.Ground(
+        return Ground(
             tuple(places),
             centres or (home,),
             tuple(sorted(lengths)),
             tuple(sorted(bearings)),
-            tuple(sorted(derived.sector_counts((*facts.counts, *self._own(None))))),
+            tuple(sorted(sector_counts((*facts.counts, *self._own(None))))),
             sizes or tuple(itertools.product(sorted(lengths), sorted(lengths))),
             "corner" in facts.text.lower(),
             spacing if sizes else None,
         )
 
     @functools.cached_property
-    def _plain_ground(self) -> derived.Ground | None:
+    def _plain_ground(self) -> Ground | None:
         """What places are derived from in the plain reading of the text: positions that share no
         number, lengths that are no coordinates, directions that are said. "0 and 100,200" is no
         100200.
@@ -160,9 +161,6 @@ class Input:
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
         found = itertools.chain(off, middles, known.away(off))
         return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
-
-    def _is_worked_out(self, point: Point) -> bool:
-        return any(math.dist(point, place) <= derived.CLOSE for place in self.worked_places)
 
     def _place(self, value: Any, tolerance: float, before: Iterable[Point] | None) -> Evidence:
         """Where a waypoint behind those `before` is from; None for a corner of an area."""
@@ -209,8 +207,8 @@ class Input:
             found += [value * factor for factor in self._factors for value in found]
         if named(unit) == UNITS["deg"]:
             found += [angle.value for angle in (*self.facts.bearings, *self.facts.turns)]
-            counts = derived.sector_counts((*self.facts.counts, *filter(is_number, self._values)))
-            found += derived.turned(found, counts) if self.is_task else []
+            counts = sector_counts((*self.facts.counts, *filter(is_number, self._values)))
+            found += turned(found, counts) if self.is_task else []
         return found
 
     @functools.cached_property

@@ -1,6 +1,4 @@
-"""The numbers of a text with their units: "four minutes" is 240 s, "a metre and a half" 1.5 m, and
-the turns that it speaks of.
-"""
+"""The numbers and turns of a text: "four minutes" is 240 s, "a metre and a half" 1.5 m."""
 
 from __future__ import annotations
 
@@ -12,15 +10,7 @@ from dataclasses import replace
 
 from planner_ft.facts import words as lists
 from planner_ft.facts.numerals import AND, NUMERALS, Row
-from planner_ft.facts.together import (
-    AS_BEFORE,
-    BARE,
-    REREAD,
-    WRITTEN,
-    Number,
-    sums,
-    with_shared_units,
-)
+from planner_ft.facts.together import AS_BEFORE, BARE, REREAD, WRITTEN, Number, sums, with_units
 from planner_ft.facts.units import base_of, named
 from planner_ft.facts.words import UNITS, WORDS, is_known
 
@@ -138,7 +128,7 @@ def _plain(row: Row) -> tuple[Number, ...]:
     while index < len(row.tokens):
         number, index = next(_at(row, index), (None, index + 1))
         found += [number] if number else []
-    return tuple(with_shared_units(row.text, found))
+    return tuple(with_units(row.text, found))
 
 
 def _every(row: Row) -> list[Number]:
@@ -154,7 +144,7 @@ def _every(row: Row) -> list[Number]:
         if row.bare_unit(index):
             options += _measured(row, index, index, 1.0)
         found += [number for number, _behind in options]
-    return with_shared_units(row.text, found)
+    return with_units(row.text, found)
 
 
 def read_times(text: str) -> Iterator[Number]:

@@ -40,7 +40,7 @@ class Number:
         return (self.value - self.added) / self.said if self.said else 0.0
 
 
-def with_shared_units(text: str, numbers: list[Number]) -> list[Number]:
+def with_units(text: str, numbers: list[Number]) -> list[Number]:
     """The numbers; "200 by 120 feet" and "100x60x20 m" have the unit of all behind the last."""
     lengths = {number.start: number for number in numbers if number.unit == "m" and number.factor}
     shared = list(numbers)

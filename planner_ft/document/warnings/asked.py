@@ -22,10 +22,8 @@ NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
 IT = re.compile(r"\s+(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
 SENTENCE = re.compile(r"[.!?;]\s")
+# The share of unknown words of another language (benchmarks/language_check.py).
 UNKNOWN = 0.55
-"""The share of unknown words from which a command may be in another language
-(benchmarks/language_check.py).
-"""
 
 
 def other_language(command: str) -> str | None:

@@ -8,19 +8,9 @@ from typing import Any
 
 from planner_ft.document.warnings.asked import UNKNOWN
 from planner_ft.document.warnings.case import Case, Warning, quoted, warning
-from planner_ft.facts import (
-    SCORING,
-    WAYPOINT,
-    Evidence,
-    Facts,
-    Position,
-    is_number,
-    is_place,
-    read,
-    read_input,
-    unknown_words,
-)
-from planner_ft.facts.words import edit_distance, words
+from planner_ft.facts import SCORING, WAYPOINT, Evidence, Facts, Position, is_number, is_place, read
+from planner_ft.facts.inputs import read_input
+from planner_ft.facts.words import edit_distance, unknown_words, words
 from planner_ft.planning.shapes import pass_ends, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
