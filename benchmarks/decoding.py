@@ -28,17 +28,17 @@ from planner_ft.candidates import resolve_candidate
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, Strength
 from planner_ft.decoding.constraints.answer import Answer as Constraint
-from planner_ft.decoding.engine import Engine, Speed, decoding_threads
-from planner_ft.decoding.generate import Query
+from planner_ft.decoding.engine import Engine, decoding_threads
+from planner_ft.decoding.sequence import Query
 from planner_ft.support.files import read_jsonl, write_json
 from planner_ft.support.manifest import build_manifest
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
 SPEEDS = {
-    "step by step": Speed(False, False),
-    "fast-forward": Speed(True, False),
-    "with drafting": Speed(True, True),
+    "step by step": {"fast_forward": False, "drafting": False},
+    "fast-forward": {"fast_forward": True, "drafting": False},
+    "with drafting": {"fast_forward": True, "drafting": True},
 }
 FORMS = {"ours": False, "ours, lean": True}
 COMMANDS = Path("data/mission/validation.jsonl")
@@ -135,9 +135,9 @@ def generated(engine: Engine, configuration: Configuration, *, enforced: bool) -
     return answer
 
 
-def decoded(engine: Engine, configuration: Configuration, speed: Speed) -> Way:
+def decoded(engine: Engine, configuration: Configuration, speed: dict[str, bool]) -> Way:
     """Our loop."""
-    engine = replace(engine, speed=speed)
+    engine = replace(engine, **speed)
 
     def answer(query: Query) -> Answer:
         with timed() as spent:

@@ -13,8 +13,9 @@ from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.forward import SmallModel, small_model
-from planner_ft.decoding.generate import Generation, Method, Query, generate
+from planner_ft.decoding.generate import Generation, generate
 from planner_ft.decoding.passes import ModelDecoder
+from planner_ft.decoding.sequence import Method, Query
 from planner_ft.prompts import ends_of_answers, render_prompt
 from planner_ft.training.checkpoint import JUDGED, Answer, Run
 from planner_ft.training.model import SMALL_MODEL, autocast, evaluating

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import itertools
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+import torch
 
 from planner_ft.candidates import Candidate
 from planner_ft.candidates.loading import load_model, load_tokenizer, require_folder, resolve_device
@@ -22,26 +25,14 @@ from planner_ft.decoding.constraints.factory import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
 from planner_ft.decoding.constraints.scripts import STEP_OPENS
 from planner_ft.decoding.forward import SmallModel, read_forms
-from planner_ft.decoding.generate import Generation, Method, Query
+from planner_ft.decoding.generate import Generation
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
-from planner_ft.decoding.sampling import Sampling
+from planner_ft.decoding.sequence import Method, Query, Sampling
 from planner_ft.prompts import ends_of_answers, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, without_working
-
-
-@dataclass(frozen=True)
-class Speed:
-    """What saves forward passes; an answer does not depend on it.
-
-    `fast_forward` feeds tokens that a constraint forces together with the choice before them,
-    `drafting` has likely tokens verified by the model (see `lookup`).
-    """
-
-    fast_forward: bool = True
-    drafting: bool = True
 
 
 @dataclass
@@ -50,20 +41,20 @@ class Engine:
     adapters are switched, none is on for base.
 
     `lean` holds the lean forms of a small model (see `forward`) by adapter, None for the base;
-    where it is empty, `model` decodes, a model of transformers. `width` is the size of the logits.
-    `adapters` are the levels that have one, `threads` the CPU threads that it decodes with; None
-    leaves torch's number.
+    where it is empty, `model` decodes, a model of transformers. `adapters` are the levels that have
+    one, `threads` the CPU threads that it decodes with; None leaves torch's number. `fast_forward`
+    and `drafting` save forward passes, and no answer depends on them (see `sequence.Method`).
     """
 
     model: Any
     lean: dict[Level | None, SmallModel]
     tokenizer: Any
-    width: int
     vocabulary: Vocabulary
     limits: dict[Level, Limits]
     adapters: frozenset[Level]
     threads: int | None = None
-    speed: Speed = field(default_factory=Speed)
+    fast_forward: bool = True
+    drafting: bool = True
     factories: dict[tuple[Level, Strength], Factory | None] = field(default_factory=dict)
     bases: dict[Level, Lookup] = field(default_factory=dict)
 
@@ -78,7 +69,6 @@ class Engine:
         device: str = "auto",
         quantization: Quantization = "nf4",
         threads: int | None = None,
-        speed: Speed | None = None,
         lean: bool | None = None,
     ) -> Engine:
         """Load a candidate, with the adapters of the levels that are given one.
@@ -100,11 +90,8 @@ class Engine:
         tokenizer: Any = (FileTokenizer.read(folder) if forms else None) or load_tokenizer(
             candidate
         )
-        if forms:
-            width = forms[None].head.shape[0]
-        else:
+        if not forms:
             model = load_model(candidate, device=device, adapters=given, **settings)
-            width = model.config.get_text_config().vocab_size
         config, own = read_config(folder), read_config(folder, "generation_config.json")
         named = own.get("eos_token_id", config.get("eos_token_id"))
         ends, pad = tuple(ends_of_answers(tokenizer, named)), int(tokenizer.pad_token_id)
@@ -112,16 +99,14 @@ class Engine:
             level: Limits(ends, pad, max_new_tokens or default)
             for level, default in MAX_NEW_TOKENS.items()
         }
-        how = frozenset(given), threads, speed or Speed()
-        return cls(model, forms or {}, tokenizer, width, vocabulary, limits, *how)
+        return cls(model, forms or {}, tokenizer, vocabulary, limits, frozenset(given), threads)
 
     def query(
         self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False
     ) -> Query:
         """A question to a level's agent; a base model is shown the vocabulary."""
-        prompt = render_prompt(
-            level, record, self.tokenizer, self.vocabulary, with_vocabulary=with_vocabulary
-        )
+        known = self.tokenizer, self.vocabulary
+        prompt = render_prompt(level, record, *known, with_vocabulary=with_vocabulary)
         return Query(level, record, tuple(prompt))
 
     def answer(self, query: Query, configuration: Configuration) -> Generation:
@@ -169,10 +154,10 @@ class Engine:
         opens = TASK_OPENS if level == "mission" else STEP_OPENS
         return Method(
             self._factory(level, configuration.strength),
-            self.speed.fast_forward,
-            self.speed.drafting,
+            self.fast_forward,
+            self.drafting,
             self._likeness,
-            self._base(level) if self.speed.drafting else None,
+            self._base(level) if self.drafting else None,
             sampling,
             lambda ids: self._decoded(ids).count(opens),
         )
@@ -213,10 +198,6 @@ class Engine:
 
     def release(self) -> None:
         """Give the model's memory back."""
-        import gc
-
-        import torch
-
         self.model, self.lean = None, {}
         gc.collect()
         if torch.cuda.is_available():
@@ -243,13 +224,11 @@ class Engine:
 
     def _factory(self, level: Level, strength: Strength) -> Factory | None:
         if (level, strength) not in self.factories:
-            limits = self.limits[level]
-            self.factories[level, strength] = constraint_factory(
-                *(self.tokenizer, level, self.vocabulary, strength),
-                end_ids=limits.end_ids,
-                limit=limits.max_new_tokens,
-                n_vocab=self.width,
-            )
+            what, limits = (self.tokenizer, level, self.vocabulary, strength), self.limits[level]
+            small, model = self.lean.get(None), self.model
+            width = small.head.shape[0] if small else model.config.get_text_config().vocab_size
+            made = constraint_factory(*what, limits.end_ids, limits.max_new_tokens, width)
+            self.factories[level, strength] = made
         return self.factories[level, strength]
 
     def _base(self, level: Level) -> Lookup:
@@ -307,8 +286,6 @@ def decoding_threads(candidate: Candidate, device: str) -> int | None:
 @contextlib.contextmanager
 def limited_threads(threads: int | None) -> Iterator[None]:
     """In the block, torch computes with this number of CPU threads."""
-    import torch
-
     before = torch.get_num_threads()
     torch.set_num_threads(threads or before)
     try:

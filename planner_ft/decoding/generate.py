@@ -8,35 +8,26 @@ leave the batch, and every answer is handed over the moment that it is complete.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 import torch
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import RAN_ON
-from planner_ft.decoding.constraints.factory import Factory
-from planner_ft.decoding.lookup import Likeness, Lookup
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.sampling import Sampling
-from planner_ft.decoding.sequence import FinishReason, Score, SequenceState, scores
+from planner_ft.decoding.sequence import (
+    PLAIN,
+    FinishReason,
+    Method,
+    Query,
+    Score,
+    SequenceState,
+    scores,
+)
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.plans import Level
-
-
-@dataclass(frozen=True)
-class Query:
-    """A question to a level's agent: its record ({"prompt", ...}) and prompt ids."""
-
-    level: Level
-    record: dict[str, Any]
-    prompt: tuple[int, ...]
-
-    @property
-    def name(self) -> str:
-        """The record's id, or its prompt's tokens: tells the query from others."""
-        return str(self.record.get("id") or self.prompt)
 
 
 @dataclass(frozen=True)
@@ -56,55 +47,11 @@ class Generation:
     seconds: float
     error: str | None = None
     forward_passes: int = 0
+    first_token_s: float | None = None
+    scores: tuple[Score | None, ...] = ()
     notes: tuple[str, ...] = ()
     cut: bool = False
-    first_token_s: float | None = None
     alternatives: int = 0
-    scores: tuple[Score | None, ...] = ()
-
-
-@dataclass(frozen=True)
-class Method:
-    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint`,
-    `sampling` and `entries` alone.
-
-    Without `sampling` the most probable token is taken. `constraint` is enforced, and with
-    `fast_forward` the tokens that must follow are fed together. With `drafting` likely tokens are
-    verified in one pass, from the prompt, the answer so far and `base` (see `lookup`). `entries`
-    counts the tasks or steps of an answer's tokens: a constrained answer with more than twice as
-    many as the free one, and two, is given up.
-    """
-
-    constraint: Factory | None = None
-    fast_forward: bool = True
-    drafting: bool = True
-    likeness: Likeness = lambda token: token
-    base: Lookup | None = None
-    sampling: Sampling | None = None
-    entries: Callable[[Sequence[int]], int] | None = None
-
-    def state(
-        self, query: Query, limits: Limits, longest: int, most: int | None = None, **settings: Any
-    ) -> SequenceState:
-        """The beginning of an answer of at most `most` entries; `settings` are those of a
-        SequenceState.
-
-        Raises PlannerError when the constraint needs more room than `longest` tokens.
-        """
-        return SequenceState(
-            query.prompt,
-            limits,
-            longest,
-            self.constraint.start(query.record, longest, most) if self.constraint else None,
-            Lookup(query.prompt, self.likeness, self.base) if self.drafting else None,
-            fast_forward=self.fast_forward,
-            sampler=self.sampling.sampler(query.name, longest) if self.sampling else None,
-            **settings,
-        )
-
-
-PLAIN = Method(fast_forward=False, drafting=False)
-"""Greedy generation, a forward pass per token."""
 
 
 def generate(
@@ -141,7 +88,7 @@ def generate_unordered(
         for index in order[start : start + batch_size]:
             query = queries[index]
             try:
-                states[index] = method.state(query, limits, _room(decoder, query, limits))
+                states[index] = SequenceState(query, method, limits, _room(decoder, query, limits))
             except PlannerError as error:
                 yield index, Generation((), "error", 0.0, str(error))
         try:
@@ -206,7 +153,7 @@ def _bounded(
         return not answer.cut and made <= 2 * entries(ids) + 2
 
     def run(way: Method, **settings: Any) -> Generation:
-        other = way.state(query, limits, state.longest, **settings)
+        other = SequenceState(query, way, limits, state.longest, **settings)
         return next(found for _index, found in _run(decoder, {0: other}, time.perf_counter()))
 
     free = run(replace(method, constraint=None), begun=answer.ids[:diverged], enough=enough)
@@ -230,19 +177,16 @@ def _run(
 ) -> Iterator[tuple[int, Generation]]:
     """Yield (index, answer) as sequences end. `began` is when the work on the batch did."""
     share, first = 0.0, 0.0
-    passes = decoder.start(len(states)) if states else None
-    while passes and states:
+    passes = decoder.start(len(states))
+    while states:
         fed = [state.feed(wide=passes.wide) for state in states.values()]
         wanted = [count for _ids, count in fed]
         logits = passes.run([ids for ids, _count in fed], wanted).float()
         # Reading the tokens waits for the device, so the time below is that of the whole step.
-        best, wrong = logits.argmax(-1).tolist(), []
-        decided = list(torch.split(logits, wanted))
-        for place, state in enumerate(states.values()):
-            rows = decided[place]
-            wrong.append(state.choose(best[: len(rows)], rows))
-            del best[: len(rows)]
-            decided[place] = rows[: state.decided]
+        best, wrong, decided = iter(logits.argmax(-1).tolist()), [], []
+        for state, rows in zip(states.values(), torch.split(logits, wanted), strict=True):
+            wrong.append(state.choose(list(islice(best, len(rows))), rows))
+            decided.append(rows[: state.decided])
         # What stood behind a wrong draft has no scores.
         latest = [token for state in states.values() for token in state.latest]
         scored = scores(latest, torch.cat(decided))
@@ -264,13 +208,6 @@ def _run(
 
 def _generation(state: SequenceState, seconds: float, first: float) -> Generation:
     assert state.finished is not None
-    made = Generation(
-        tuple(state.ids),
-        state.finished,
-        seconds,
-        forward_passes=state.forward_passes,
-        first_token_s=first,
-        scores=tuple(state.scores),
-    )
-    known = state.constraint
+    known, passes, scored = state.constraint, state.forward_passes, tuple(state.scores)
+    made = Generation(tuple(state.ids), state.finished, seconds, None, passes, first, scored)
     return replace(made, notes=tuple(known.notes), cut=known.cut) if known else made

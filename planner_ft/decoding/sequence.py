@@ -1,21 +1,30 @@
-"""The state of one sequence: tokens that are fed, and those that its logits decide."""
+"""The state of one sequence: tokens that are fed, and those that its logits decide.
+
+The most probable tokens are taken, or others are drawn, for runs that ask the same thing several
+times. Every token of an answer then has its own random number, which depends on seed, repeat,
+sample and place alone. So an answer depends on none of what the batch holds, how large it is and
+what was drafted or forced, as long as the logits do not.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor
 
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
-from planner_ft.decoding.sampling import Sampler
-
-if TYPE_CHECKING:
-    from planner_ft.decoding.constraints.answer import Answer
+from planner_ft.decoding.constraints import Mask
+from planner_ft.decoding.constraints.factory import Factory
+from planner_ft.decoding.lookup import LONGEST_DRAFT, Likeness, Lookup
+from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary.plans import Level
 
 RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
@@ -25,7 +34,81 @@ LONGEST_FORCED = 31
 """Tokens that must follow and are fed with the choice before them; only a release drops them."""
 LIKELIEST = 4
 """Tokens of a place whose log-probabilities are kept."""
+HUGE = 1e30
 FinishReason = Literal["stop", "length", "error"]
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Tokens are drawn at `temperature` (above 0) from the most probable ones that together hold
+    `top_p` of the probability.
+
+    `repeat` counts from 1: each repeat of a sample has its own random numbers. Raises PlannerError
+    for settings out of range.
+    """
+
+    temperature: float
+    top_p: float = 1.0
+    seed: int = 0
+    repeat: int = 1
+
+    def __post_init__(self) -> None:
+        if not 0 < self.temperature <= 10:
+            raise PlannerError(
+                f"--temperature {self.temperature:g}: must be above 0 and at most 10"
+            )
+        if not 0 < self.top_p <= 1:
+            raise PlannerError(f"--top-p {self.top_p:g}: must be above 0 and at most 1")
+
+    def seed_of(self, name: str) -> int:
+        """The seed of one answer, of 128 bits; `name` tells it from those to other samples."""
+        digest = hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()
+        return int.from_bytes(digest[:16])
+
+    def sampler(self, name: str, longest: int) -> Sampler:
+        """The random numbers of one answer of at most `longest` tokens."""
+        numbers = np.random.default_rng(self.seed_of(name)).random(longest)
+        return Sampler(self.temperature, self.top_p, numbers)
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """Draws the tokens of one answer; `numbers` holds one in [0, 1) for every place in it."""
+
+    temperature: float
+    top_p: float
+    numbers: NDArray[np.float64]
+
+    def draw(self, place: int, logits: Tensor, allowed: Mask | None = None) -> int:
+        """The token at a place of the answer from its logits, shape (tokens); with `allowed`, one
+        of those that a constraint allows.
+
+        By inversion over token ids, in float64: where rounding swaps two tokens of like
+        probability, what is drawn stays the same.
+        """
+        raw = logits.detach().double().cpu().numpy()
+        scores = np.nan_to_num(raw, nan=-HUGE, posinf=HUGE, neginf=-HUGE)
+        usable = np.full(len(scores), True) if allowed is None else _bits(allowed, len(scores))
+        below = np.minimum(scores - scores[usable].max(), 0)
+        weights = np.where(usable, np.exp(below / self.temperature), 0)
+        if self.top_p < 1:
+            # The smallest set of tokens that holds `top_p` (Holtzman et al. 2020), the others at 0.
+            order = np.argsort(-weights, kind="stable")
+            before = weights[order].cumsum() - weights[order]
+            weights[order[before >= self.top_p * weights.sum()]] = 0
+        cumulative = weights.cumsum()
+        drawn = np.searchsorted(cumulative, self.numbers[place] * cumulative[-1], side="right")
+        # Rounding may put the number at the very end, where tokens without any weight may stand.
+        return min(int(drawn), int(np.flatnonzero(weights)[-1]))
+
+
+def _bits(mask: Mask, width: int) -> NDArray[np.bool_]:
+    """Whether a mask allows each token; one of them at least."""
+    bits = np.unpackbits(mask.view(np.uint8), bitorder="little", count=width)
+    usable: NDArray[np.bool_] = bits == 1
+    if not usable.any():
+        raise RuntimeError("the constraint allows no token")
+    return usable
 
 
 class Score(NamedTuple):
@@ -48,42 +131,80 @@ def scores(ids: Sequence[int], logits: Tensor) -> Iterator[Score]:
         yield Score(chosen - norm, tuple(others)[: LIKELIEST - 1])
 
 
+@dataclass(frozen=True)
+class Query:
+    """A question to a level's agent: its record ({"prompt", ...}) and prompt ids."""
+
+    level: Level
+    record: dict[str, Any]
+    prompt: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        """The record's id, or its prompt's tokens: tells the query from others."""
+        return str(self.record.get("id") or self.prompt)
+
+
+@dataclass(frozen=True)
+class Method:
+    """How tokens are chosen, and what saves forward passes; an answer depends on `constraint`,
+    `sampling` and `entries` alone.
+
+    Without `sampling` the most probable token is taken. `constraint` is enforced, and with
+    `fast_forward` the tokens that must follow are fed together. With `drafting` likely tokens are
+    verified in one pass, from the prompt, the answer so far and `base` (see `lookup`). `entries`
+    counts the tasks or steps of an answer's tokens: a constrained answer with more than twice as
+    many as the free one, and two, is given up.
+    """
+
+    constraint: Factory | None = None
+    fast_forward: bool = True
+    drafting: bool = True
+    likeness: Likeness = lambda token: token
+    base: Lookup | None = None
+    sampling: Sampling | None = None
+    entries: Callable[[Sequence[int]], int] | None = None
+
+
+PLAIN = Method(fast_forward=False, drafting=False)
+"""Greedy generation, a forward pass per token."""
+
+
 class SequenceState:
-    """An answer of at most `longest` tokens to a prompt, which begins with the tokens `begun`.
+    """An answer of at most `longest` tokens and `most` entries, which begins with the tokens
+    `begun`.
 
     `ids` is the answer so far; its last tokens, which the model has not been fed yet, are
-    `pending`, and `draft` stands behind them: with `fast_forward` what the constraint says must
-    follow, then what `lookup` finds likely. Choices are the most probable tokens, or drawn by
-    `sampler`. `diverged` is the place of the first token that the model without the constraint
-    would not have chosen. `scores` are those of `ids`, None where no pass has decided a token, and
-    `decided` is how many tokens the last one did. Where `enough(ids)` holds, the answer stays.
+    `pending`, and `draft` stands behind them: what the constraint says must follow, then what
+    `lookup` finds likely. `diverged` is the place of the first token that the model without the
+    constraint would not have chosen. `scores` are those of `ids`, None where no pass has decided a
+    token, and `decided` is how many tokens the last one did. Where `enough(ids)` holds, the answer
+    stays. Raises PlannerError when the constraint needs more room than `longest` tokens.
     """
 
     def __init__(
         self,
-        prompt: Sequence[int],
+        query: Query,
+        method: Method,
         limits: Limits,
         longest: int,
-        constraint: Answer | None = None,
-        lookup: Lookup | None = None,
-        *,
-        fast_forward: bool = True,
-        sampler: Sampler | None = None,
+        most: int | None = None,
         begun: Sequence[int] = (),
-        enough: Callable[[Sequence[int]], bool] | None = None,
+        enough: Callable[[Sequence[int]], bool] = lambda ids: False,
     ) -> None:
         self.end_ids, self.longest = limits.end_ids, longest
-        self.constraint, self.lookup, self.sampler = constraint, lookup, sampler
-        self.fast_forward, self._enough, self._wide = fast_forward, enough, True
-        self.ids: list[int] = []
-        self.scores: list[Score | None] = []
-        self.decided = 0
+        prompt, rules, sampling = query.prompt, method.constraint, method.sampling
+        self.constraint = rules.start(query.record, longest, most) if rules else None
+        self.lookup = Lookup(prompt, method.likeness, method.base) if method.drafting else None
+        self.sampler = sampling.sampler(query.name, longest) if sampling else None
+        self.fast_forward, self._enough, self._wide = method.fast_forward, enough, True
+        self.ids, self.decided, self.forward_passes = list[int](), 0, 0
+        self.scores: list[Score | None] = [None] * len(begun)
         self.finished: FinishReason | None = None
         self.diverged: int | None = None
-        self.forward_passes = 0
         for token in begun:
             self._add(token)
-        self.pending, self.draft = [*prompt, *begun], list[int]()
+        self.pending = [*prompt, *begun]
         self._propose()
 
     def feed(self, *, wide: bool) -> tuple[list[int], int]:
@@ -100,7 +221,7 @@ class SequenceState:
 
         Returns how many of the fed tokens were a wrong draft.
         """
-        right, draft, self._begun = 0, self.draft, len(self.ids)
+        right, draft = 0, self.draft
         while True:
             token = self._choice(best[right], logits[right])
             self._add(token)
@@ -111,21 +232,20 @@ class SequenceState:
                 break
             right += 1
         self.pending, self.decided = [token], right + 1
-        if self._enough is not None and not self.finished and self._enough(self.ids):
+        if not self.finished and self._enough(self.ids):
             self.finished = "stop"
         self._propose()
         return len(draft) - right
 
     @property
     def latest(self) -> list[int]:
-        """The tokens that the last pass decided."""
-        return self.ids[self._begun : self._begun + self.decided]
+        """The tokens that the last pass decided, until they are rated."""
+        return self.ids[len(self.scores) :][: self.decided]
 
     def rate(self, scored: Iterator[Score]) -> None:
         """Take the scores of the latest tokens, the next ones of these."""
-        self.scores[self._begun : self._begun + self.decided] = itertools.islice(
-            scored, self.decided
-        )
+        self.scores += itertools.islice(scored, self.decided)
+        self.scores += [None] * (len(self.ids) - len(self.scores))
 
     def _choice(self, best: int, logits: Tensor) -> int:
         """The token that the model takes, `best` where it may."""
@@ -141,10 +261,8 @@ class SequenceState:
             return best
         if token is None:
             # The most probable token of those allowed, even where logits are infinite or no numbers.
-            bits = np.unpackbits(constraint.mask().view(np.uint8), bitorder="little")
-            allowed = torch.from_numpy(np.flatnonzero(bits[: len(logits)])).to(logits.device)
-            if not len(allowed):
-                raise RuntimeError("the constraint allows no token")
+            usable = np.flatnonzero(_bits(constraint.mask(), len(logits)))
+            allowed = torch.from_numpy(usable).to(logits.device)
             token = int(allowed[logits[allowed].argmax()])
             doubt = float(logits[best]) - float(logits[token])
             if doubt > RELEASE and constraint.release(best):
@@ -155,7 +273,6 @@ class SequenceState:
     def _add(self, token: int) -> None:
         """A token joins the answer."""
         self.ids.append(token)
-        self.scores.append(None)
         if self.constraint is not None:
             self.constraint.accept(token)
         if token in self.end_ids:

@@ -145,7 +145,7 @@ class Answers:
         tokenizer: Any,
         with_vocabulary: bool,
     ) -> None:
-        from planner_ft.decoding.generate import Query
+        from planner_ft.decoding.sequence import Query
 
         self.level, self.tokenizer = level, tokenizer
         known: dict[str, Any] = {"vocabulary": vocabulary, "with_vocabulary": with_vocabulary}

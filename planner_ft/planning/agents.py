@@ -18,7 +18,8 @@ from planner_ft.vocabulary.plans import Level, parse_output, plan_problems
 
 if TYPE_CHECKING:
     from planner_ft.decoding.engine import Engine
-    from planner_ft.decoding.generate import Generation, Query
+    from planner_ft.decoding.generate import Generation
+    from planner_ft.decoding.sequence import Query
 
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""

@@ -13,8 +13,9 @@ from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.candidates.loading import load_model
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, Strength
-from planner_ft.decoding.engine import Engine, Query, Speed
+from planner_ft.decoding.engine import Engine
 from planner_ft.decoding.passes import ModelDecoder
+from planner_ft.decoding.sequence import Query
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_json
 from planner_ft.vocabulary import load_vocabulary
@@ -132,8 +133,8 @@ def test_what_saves_passes_changes_no_answer(embedded: Engine, strength: Strengt
     queries = [embedded.query("mission", {"prompt": command}) for command in commands]
     configuration = Configuration(False, strength)
     slow, forced, fast = (
-        replace(embedded, speed=speed)
-        for speed in (Speed(False, False), Speed(drafting=False), Speed())
+        replace(embedded, fast_forward=fast_forward, drafting=drafting)
+        for fast_forward, drafting in ((False, False), (True, False), (True, True))
     )
     expected = [slow.answer(query, configuration) for query in queries]
     assert all(

@@ -12,9 +12,9 @@ import torch
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import RAN_ON, Mask
-from planner_ft.decoding.generate import Method, Query, generate
+from planner_ft.decoding.generate import generate
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.sequence import SequenceState
+from planner_ft.decoding.sequence import Method, Query, SequenceState
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY, END = 64, 2
@@ -169,7 +169,8 @@ def test_a_token_is_allowed_whatever_the_logits_are() -> None:
         torch.full((1, VOCABULARY), -torch.inf),
         torch.full((1, VOCABULARY), torch.inf),
     ):
-        row = SequenceState((3,), LIMITS, 9, Toy(1))
+        query = Query("mission", {"rounds": 1}, (3,))
+        row = SequenceState(query, Method(ToyFactory(), drafting=False), LIMITS, 9)
         _fed, wanted = row.feed(wide=True)
         rows = logits.expand(wanted, -1)
         row.choose(rows.argmax(-1).tolist(), rows.half())

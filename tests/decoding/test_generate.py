@@ -11,10 +11,11 @@ import torch
 
 from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.generate import Generation, Query, measure_latency
+from planner_ft.decoding.generate import Generation, measure_latency
 from planner_ft.decoding.generate import generate as generate_answers
 from planner_ft.decoding.generate import generate_unordered as generate_answers_unordered
 from planner_ft.decoding.passes import ModelDecoder
+from planner_ft.decoding.sequence import Query
 from planner_ft.prompts import ends_of_answers
 from planner_ft.support.errors import PlannerError
 

@@ -14,10 +14,9 @@ import torch
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
-from planner_ft.decoding.generate import Method, Query, generate
+from planner_ft.decoding.generate import generate
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.sampling import Sampler, Sampling
-from planner_ft.decoding.sequence import SequenceState
+from planner_ft.decoding.sequence import Method, Query, Sampler, Sampling, SequenceState
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY = 64
@@ -114,15 +113,13 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
         def accept(self, token: int) -> None:
             self.count += 1
 
+    class Factory:
+        def start(self, record: dict[str, Any], limit: int, most: int | None) -> Forcing:
+            return Forcing()
+
     def sampled(*, fast_forward: bool) -> list[int]:
-        row = SequenceState(
-            (1,),
-            LIMITS,
-            12,
-            Forcing(),
-            fast_forward=fast_forward,
-            sampler=Sampling(1.0).sampler("a", 12),
-        )  # type: ignore[arg-type]
+        method = Method(Factory(), fast_forward, drafting=False, sampling=Sampling(1.0))  # type: ignore[arg-type]
+        row = SequenceState(Query("mission", {"id": "a"}, (1,)), method, LIMITS, 12)
         while not row.finished:
             _fed, wanted = row.feed(wide=True)
             row.choose([0] * wanted, torch.zeros(wanted, 32))

@@ -10,10 +10,10 @@ import torch
 
 from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.generate import Generation, Method, Query, generate
+from planner_ft.decoding.generate import Generation, generate
 from planner_ft.decoding.lookup import Lookup
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.sequence import LIKELIEST, scores
+from planner_ft.decoding.sequence import LIKELIEST, Method, Query, scores
 
 END = 2
 LIMITS = Limits((END,), 0, 24)

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.generate import Generation, Query, generate
+from planner_ft.decoding.generate import Generation, generate
 from planner_ft.decoding.passes import SHARED, ModelDecoder
+from planner_ft.decoding.sequence import Query
 
 LIMITS = Limits((2,), 0, 30)
 

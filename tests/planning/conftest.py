@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.engine import Engine
-from planner_ft.decoding.generate import Generation, Query
+from planner_ft.decoding.generate import Generation
+from planner_ft.decoding.sequence import Query
 from planner_ft.vocabulary.plans import Level
 
 HOLD = {

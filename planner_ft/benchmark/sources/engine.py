@@ -20,7 +20,8 @@ from planner_ft.support.resources import peak_memory, reset_peak_memory
 
 if TYPE_CHECKING:
     from planner_ft.benchmark.plan import Job, Plan
-    from planner_ft.decoding.generate import Generation, Query
+    from planner_ft.decoding.generate import Generation
+    from planner_ft.decoding.sequence import Query
 
 SWAPS = 3  # how often the adapter is put on and off to time it
 

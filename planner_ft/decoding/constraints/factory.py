@@ -35,7 +35,6 @@ def constraint_factory(
     level: Level,
     vocabulary: Vocabulary,
     strength: Strength,
-    *,
     end_ids: tuple[int, ...],
     limit: int,
     n_vocab: int | None = None,
