@@ -16,7 +16,7 @@ from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
 from planner_ft.data.leakage import input_digest
 from planner_ft.decoding.configurations import Configuration, parse_configuration
-from planner_ft.decoding.constraints.factory import constraint_factory
+from planner_ft.decoding.constraints.answer import constraint_factory
 from planner_ft.decoding.engine import decoding_threads
 from planner_ft.decoding.sequence import Sampling
 from planner_ft.prompts.render import PROMPT_VERSION, end_of_turn_ids

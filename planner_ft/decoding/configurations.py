@@ -44,15 +44,11 @@ class Configuration:
 
 def parse_configuration(text: str) -> Configuration:
     """Read "base", "lora+STRENGTH" ... Raises PlannerError that names what there is."""
-    known = {
-        Configuration(adapter, strength).name: Configuration(adapter, strength)
-        for strength in STRENGTHS
-        for adapter in (False, True)
-    }
-    known |= {f"{weights}+free": Configuration(weights == "lora") for weights in WEIGHTS}
-    if text.strip() not in known:
-        named = [name for name in known if not name.endswith("+free")]
+    every = [Configuration(adapter, one) for one in STRENGTHS for adapter in (False, True)]
+    known = {one.name: one for one in every}
+    spelt = {f"{one.name}+free": one for one in every[:2]} | known
+    if text.strip() not in spelt:
         raise PlannerError(
-            f"--configurations {text.strip()}: unknown; there are {', '.join(named)}"
+            f"--configurations {text.strip()}: unknown; there are {', '.join(known)}"
         )
-    return known[text.strip()]
+    return spelt[text.strip()]

@@ -21,7 +21,7 @@ from planner_ft.candidates.tokenizer import FileTokenizer
 from planner_ft.confidence.parts import Choice, Choices
 from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
-from planner_ft.decoding.constraints.factory import Factory, constraint_factory
+from planner_ft.decoding.constraints.answer import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
 from planner_ft.decoding.constraints.scripts import STEP_OPENS
 from planner_ft.decoding.forward import SmallModel, read_forms

@@ -11,6 +11,7 @@ from typing import Any
 
 import torch
 from torch import Tensor
+from torch.nn.utils.rnn import pad_sequence
 
 from planner_ft.decoding.forward import SmallModel
 
@@ -22,8 +23,7 @@ class ModelDecoder:
     """A transformers model with its active adapter; short prompts are padded left."""
 
     def __init__(self, model: Any, pad_id: int) -> None:
-        self.model = model
-        self.pad_id = pad_id
+        self.model, self.pad_id = model, pad_id
         self.context: int | None = getattr(model.config, "max_position_embeddings", None)
         base = model.get_base_model() if hasattr(model, "get_base_model") else model
         # The last positions' logits alone, if the model can: with a vocabulary of 128k that saves
@@ -49,8 +49,7 @@ class _ModelPasses:
     def __init__(self, decoder: ModelDecoder, rows: int) -> None:
         from transformers import DynamicCache
 
-        self.decoder = decoder
-        self.device = decoder.model.device
+        self.decoder, self.device = decoder, decoder.model.device
         self.cache = DynamicCache(config=decoder.model.config)
         # Layers that keep a window or a state cannot be taken back.
         self.wide = rows == 1 and all(
@@ -73,11 +72,9 @@ class _ModelPasses:
 
     def forget(self, counts: Sequence[int]) -> None:
         """Take back the last tokens of each row."""
-        if not any(counts):
-            return
-        (count,) = counts
-        self.cache.crop(-count)
-        self.mask = self.mask[:, :-count]
+        if count := max(counts):  # of the only row
+            self.cache.crop(-count)
+            self.mask = self.mask[:, :-count]
 
     def select(self, kept: Sequence[int]) -> None:
         """Keep only these rows."""
@@ -102,17 +99,13 @@ class _ModelPasses:
 
     def _forward(self, ids: Tensor, mask: Tensor, positions: Tensor, wanted: int) -> Tensor:
         options: dict[str, Any] = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
-        options |= {"past_key_values": self.cache, "use_cache": True}
-        output = self.decoder.model(
-            input_ids=ids, attention_mask=mask, position_ids=positions, **options
-        )
-        logits: Tensor = output.logits
+        options |= {"past_key_values": self.cache, "use_cache": True, "position_ids": positions}
+        logits: Tensor = self.decoder.model(input_ids=ids, attention_mask=mask, **options).logits
         return logits
 
     def _padded(self, feeds: Sequence[Sequence[int]]) -> tuple[Tensor, Tensor]:
         """Ids padded on the left, and their mask."""
-        gaps = [max(map(len, feeds)) - len(feed) for feed in feeds]
-        rows = list(zip(gaps, feeds, strict=True))
-        ids = [[self.decoder.pad_id] * gap + list(feed) for gap, feed in rows]
-        mask = [[0] * gap + [1] * len(feed) for gap, feed in rows]
-        return torch.tensor(ids, device=self.device), torch.tensor(mask, device=self.device)
+        rows = [torch.tensor(feed, device=self.device) for feed in feeds]
+        left: dict[str, Any] = {"batch_first": True, "padding_side": "left"}
+        ids = pad_sequence(rows, padding_value=self.decoder.pad_id, **left)
+        return ids, pad_sequence([torch.ones_like(row) for row in rows], **left)

@@ -21,7 +21,7 @@ from torch import Tensor
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
-from planner_ft.decoding.constraints.factory import Factory
+from planner_ft.decoding.constraints.answer import Factory
 from planner_ft.decoding.lookup import LONGEST_DRAFT, Likeness, Lookup
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level

@@ -24,8 +24,6 @@ MOST_SKILLS = 16
 MOST_TEXTS = 16
 """Items of a list of texts: assumptions, target_list, stop_conditions."""
 MOST_CORNERS = 32
-LONGEST_WORKING = 600
-"""Characters of a working. The longest of 3,000 sampled tasks has 250."""
 LONGEST_TEXT = 200
 LONGEST_PROSE = 400
 """Characters of a parameter, and of a sentence; the longest labels have 55 and 181."""
@@ -41,26 +39,19 @@ class Grammar:
 
     def __init__(self) -> None:
         self._names: dict[str, str] = {}
-        self._lines: list[str] = []
 
     def rule(self, body: str) -> str:
         """The name of a rule with this body."""
-        return self._named(body, "r")
+        return self._names.setdefault(body, f"r{len(self._names)}")
 
     def terminal(self, body: str) -> str:
         """The name of a terminal (one lexeme, no recursion) with this body."""
-        return self._named(body, "T")
+        return self._names.setdefault(body, f"T{len(self._names)}")
 
     def text(self, start: str) -> str:
         """The whole grammar; `start` is the body of its first rule."""
-        return "\n".join([f"start: {start}", *self._lines])
-
-    def _named(self, body: str, prefix: str) -> str:
-        name = self._names.get(body)
-        if name is None:
-            name = self._names[body] = f"{prefix}{len(self._names)}"
-            self._lines.append(f"{name}: {body}")
-        return name
+        lines = (f"{name}: {body}" for body, name in self._names.items())
+        return "\n".join([f"start: {start}", *lines])
 
 
 Context = frozenset[str]
@@ -103,7 +94,7 @@ class Values:
         pattern, beyond = patterns.any_number(whole=whole), list[str]()
         if low is not None and high is not None:
             pattern, beyond = patterns.number_range(low, high, whole=whole)
-        barred = (*map(regex, beyond), *map(literal, map(written_number, without)))
+        barred = (*map(regex, beyond), *map(literal, map(written, without)))
         return grammar.terminal(f"{regex(pattern)}{none_of(barred)}")
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
@@ -215,14 +206,9 @@ def name_of(owner: Task | Skill) -> str:
     return owner.title if isinstance(owner, Task) else owner.name
 
 
-def written_number(number: float) -> str:
-    """A number as plans write it."""
-    return compact_json(plans.canonical_value(number))
-
-
-def written(position: Sequence[float]) -> str:
-    """A position as plans write it."""
-    return compact_json(plans.canonical_value(list(position)))
+def written(value: float | Sequence[float]) -> str:
+    """A number or position as plans write it."""
+    return compact_json(plans.canonical_value(value))
 
 
 def none_of_texts(texts: Sequence[str]) -> str:
@@ -242,13 +228,6 @@ def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:
     return grammar.terminal(" | ".join(map(literal, options))) if options else None
 
 
-def sequence_opens(grammar: Grammar) -> str:
-    """The expression before the first step, with or without a working in front."""
-    opens = literal(key("skill_sequence") + "[")
-    sums = grammar.terminal(regex(f'"{patterns.SUMS}{{1,{LONGEST_WORKING}}}"'))
-    return f'"{{" ({literal(key(plans.WORKING))} {sums} ",")? {opens}'
-
-
 def mission_opens() -> str:
     """The text before the first task of a mission plan."""
     return "{" + key(plans.MISSION_KEYS[0]) + "["
@@ -259,13 +238,6 @@ def mission_closes(grammar: Grammar, values: Values) -> str:
     texts = items(grammar, values.prose(grammar), MOST_TEXTS)
     assumptions, constraints = (f",{key(name)}" for name in plans.MISSION_KEYS[1:])
     return f"{literal(']' + assumptions)} {texts} {literal(constraints)} {texts} {literal('}')}"
-
-
-def step_tail(grammar: Grammar, values: Values) -> str:
-    """The rule of a step behind its perception skills, up to its closing brace."""
-    keys = ((literal(f",{key(name)}"), name) for name in plans.STEP_KEYS[3:])
-    tail = [f"{opens} {values.step_texts(grammar, name)}" for opens, name in keys]
-    return grammar.rule(f"{' '.join(tail)} {literal('}')}")
 
 
 def prefix_free(names: Iterable[str]) -> bool:

@@ -210,14 +210,14 @@ class GroundedValues(Values):
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().number(grammar, parameter, without)
-        barred = {lark.written_number(number) for number in without}
+        barred = {lark.written(number) for number in without}
         return lark.one_of(grammar, (number for number in numbers if number not in barred))
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().has_number(parameter, value)
-        return lark.written_number(value) in numbers
+        return lark.written(value) in numbers
 
     def position(self, grammar: Grammar, without: Positions = ()) -> str | None:
         barred = {tuple(other) for other in without}
@@ -263,7 +263,7 @@ class GroundedValues(Values):
             found = sorted({round(value, digits) for value in values for digits in (2, 4)})
             within = (one for one in found if low is None or high is None or low <= one <= high)
             usable = (one for one in within if not whole or one == int(one))
-            self._numbers[parameter] = list(map(lark.written_number, usable))
+            self._numbers[parameter] = list(map(lark.written, usable))
         return self._numbers[parameter]
 
     @functools.cached_property
@@ -275,8 +275,8 @@ class GroundedValues(Values):
             if parameter.type in ("number", "integer"):
                 known |= {text.lstrip("-") for text in self._written_numbers(parameter) or ()}
                 said = (abs(number.said) for number in self._facts.numbers(parameter.unit))
-                known |= {lark.written_number(value) for value in said}
-        known |= {lark.written_number(abs(value)) for place in self._places for value in place}
+                known |= {lark.written(value) for value in said}
+        known |= {lark.written(abs(value)) for place in self._places for value in place}
         return prose(number for number in known if len(number) <= LONGEST_NUMBER)
 
 

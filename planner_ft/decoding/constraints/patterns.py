@@ -56,9 +56,6 @@ def string(longest: int, *, blank: bool) -> str:
 
 # ---------------------------------------------------------------- numbers
 
-SUMS = r"[xy0-9.+/=;\-]"
-"""Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
-
 
 def any_number(*, whole: bool, digits: int = WHOLE_DIGITS) -> str:
     """A regular expression for numbers of at most `digits` digits before the point."""

@@ -30,11 +30,11 @@ from planner_ft.decoding.constraints.grammar import (
     Script,
     key,
 )
-from planner_ft.decoding.constraints.patterns import literal
+from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.waypoints import Path, Waypoints
 from planner_ft.vocabulary import Parameter, Skill, Task
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import STEP_KEYS, without_working
+from planner_ft.vocabulary.plans import STEP_KEYS, WORKING, without_working
 from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 
@@ -111,6 +111,10 @@ class MissionScript(Script):
         return self.values.position(grammar, without)
 
 
+LONGEST_WORKING = 600
+"""Characters of a working. The longest of 3,000 sampled tasks has 250."""
+SUMS = r"[xy0-9.+/=;\-]"
+"""Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
 STEP_OPENS = "{" + key(STEP_KEYS[0]) + SKILL_OPENS
 FILTERS, PERCEPTIONS = (key(name) + "[" for name in STEP_KEYS[1:3])
 CLOSES = "]}"
@@ -143,7 +147,8 @@ class TaskScript(Script):
 
     def opening(self) -> str:
         grammar = Grammar()
-        opens = lark.sequence_opens(grammar)
+        sums = grammar.terminal(regex(f'"{SUMS}{{1,{LONGEST_WORKING}}}"'))
+        opens = f'"{{" ({literal(key(WORKING))} {sums} ",")? {literal(key("skill_sequence") + "[")}'
         return grammar.text(f"{opens} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
 
     @property
@@ -207,8 +212,12 @@ class TaskScript(Script):
             ways = [literal("," + STEP_OPENS)] if count < self.most else []
             if not (ways and self.whole and self.whole.unfinished(self._path, int(going))):
                 ways.append(literal(CLOSES))
-            tail = lark.step_tail(grammar, self.values)
-            behind = f"{literal(']')} {tail} ({' | '.join(ways)})"
+            tail = (
+                f"{literal(',' + key(name))} {self.values.step_texts(grammar, name)}"
+                for name in STEP_KEYS[3:]
+            )
+            texts = grammar.rule(f"{' '.join(tail)} {literal('}')}")
+            behind = f"{literal(']')} {texts} ({' | '.join(ways)})"
         more = len(used) < lark.MOST_SKILLS and any(
             not (self.logical and skill in used)
             or (skill.parameters and used.count(skill) < MOST_ALIKE)
@@ -265,7 +274,7 @@ class TaskScript(Script):
         """The waypoints that may follow: y by x, as they are written."""
         columns: dict[str, list[str]] = {}
         for point in self.waypoints.following(self._path) if self.waypoints else ():
-            x, y = map(lark.written_number, point)
+            x, y = map(lark.written, point)
             columns.setdefault(x, []).append(y)
         return columns
 
@@ -288,5 +297,5 @@ class TaskScript(Script):
         symbol = self.values.number(grammar, parameter, without)
         options = [(symbol, context)] if symbol else []
         if axis == 0 and self.values.has_number(parameter, value):
-            options.append((literal(lark.written_number(value)), context | suspect))
+            options.append((literal(lark.written(value)), context | suspect))
         return options

@@ -7,6 +7,7 @@ import functools
 import itertools
 from bisect import bisect_right
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,23 +42,17 @@ class Tokens:
     end_ids: tuple[int, ...]
 
     @functools.cached_property
-    def ends(self) -> Mask:
-        """The end tokens alone."""
-        return self.mask_of(self.end_ids)
-
-    @functools.cached_property
     def byte(self) -> dict[str, int | None]:
         """The token of a closing sign, or a comma; None where the tokenizer has none alone."""
         spelt = {sign: self.engine.greedy_tokenize(sign) for sign in '"]},'}
         return {sign: ids[0] if len(ids) == 1 else None for sign, ids in spelt.items()}
 
     @functools.cached_property
-    def _by_bytes(self) -> tuple[dict[bytes, int], int]:
-        """Ordinary tokens by their bytes, and the length of the longest."""
+    def _by_bytes(self) -> list[tuple[bytes, int]]:
+        """Ordinary tokens with their bytes, in the order of these."""
         every, special = range(self.engine.vocab_size), self.engine.is_special_token
         found = {self.bytes_of(token): token for token in every if not special(token)}
-        found.pop(b"", None)
-        return found, max(map(len, found))
+        return sorted(found.items())
 
     def mask_of(self, ids: tuple[int, ...]) -> Mask:
         """The mask that allows these tokens and no others."""
@@ -65,10 +60,6 @@ class Tokens:
         for token in ids:
             words[token // 32] |= np.uint32(1 << token % 32)
         return words.view(np.int32)
-
-    def new_mask(self) -> Mask:
-        """A mask that allows nothing."""
-        return np.zeros(-(-self.n_vocab // 32), dtype=np.int32)
 
     def text_of(self, ids: list[int]) -> bytes:
         """What tokens add to the answer."""
@@ -116,16 +107,11 @@ class Tokens:
 
     def _longer(self, text: bytes) -> list[int]:
         """The tokens that begin with a text and go on."""
-        known, longest = self._by_bytes
-        if not LEAST_GROWN <= len(text) < longest:
+        if len(text) < LEAST_GROWN:
             return []
-        behind = itertools.islice(self._sorted, bisect_right(self._sorted, text), None)
-        return [known[one] for one in itertools.takewhile(lambda one: one.startswith(text), behind)]
-
-    @functools.cached_property
-    def _sorted(self) -> list[bytes]:
-        """The ordinary tokens' bytes in order."""
-        return sorted(self._by_bytes[0])
+        first = bisect_right(self._by_bytes, text, key=itemgetter(0))
+        behind = itertools.islice(self._by_bytes, first, None)
+        return [one for _, one in itertools.takewhile(lambda one: one[0].startswith(text), behind)]
 
     def compile(self, grammar: str) -> LLMatcher:
         """A matcher at the beginning of a grammar."""

@@ -12,8 +12,7 @@ import pytest
 
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints import Mask
-from planner_ft.decoding.constraints.answer import Answer
-from planner_ft.decoding.constraints.factory import Factory, constraint_factory
+from planner_ft.decoding.constraints.answer import Answer, Factory, constraint_factory
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, without_working
 

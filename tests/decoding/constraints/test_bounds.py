@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.configurations import Strength
-from planner_ft.decoding.constraints.factory import least_limit, reserve
 from planner_ft.prompts.text import completion_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
@@ -57,7 +56,7 @@ def sequence(*steps: dict[str, Any]) -> str:
 
 
 def test_what_constrains_an_answer_cannot_be_changed() -> None:
-    names = ("factory", "grammar", "scripts", "tokens", "waypoints")
+    names = ("answer", "grammar", "scripts", "tokens", "waypoints")
     assert changeable(*(f"planner_ft.decoding.constraints.{name}" for name in names)) == []
 
 
@@ -204,12 +203,12 @@ def test_what_may_stand_how_often(
     [("usv", 303, 392), ("inspection_drone", 282, 383)],
 )
 def test_the_smallest_limits_that_an_operator_can_set(
-    vehicle: str, mission_tokens: int, task_tokens: int
+    embedded: Any, vehicle: str, mission_tokens: int, task_tokens: int
 ) -> None:
     """Bytes of the longest task or skill with what must be written of it, and of what closes it."""
     known = load_vocabulary(vehicle)
-    assert least_limit("mission", known) == mission_tokens
-    assert least_limit("task", known) == task_tokens
+    assert make_factory(embedded, "mission", known, "state").least_tokens == mission_tokens
+    assert make_factory(embedded, "task", known, "state").least_tokens == task_tokens
 
 
 def test_a_limit_that_is_too_small_is_one_sentence(embedded: Any) -> None:
@@ -230,7 +229,7 @@ def test_the_last_tokens_of_the_limit_close_what_is_open(embedded: Any) -> None:
     factory = make_factory(embedded, "mission", USV, "schema")
     begun = answer_ids(embedded, mission(CHECK, prompts="x y " * 40).partition(' "}]')[0])
     (quote,) = answer_ids(embedded, '"')
-    kept = reserve("mission", USV) + len(begun)
+    kept = factory.reserve + len(begun)
     for limit, closing in ((kept, True), (kept + 1, False)):
         answer = factory.start({"prompt": "x"}, limit)
         for token in begun:
