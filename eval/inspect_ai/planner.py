@@ -20,7 +20,7 @@ from inspect_ai.solver import TaskState, generate
 from planner_ft.benchmark.samples import Sample, load_bench_data
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS
-from planner_ft.prompts.text import completion_text, prompt_messages
+from planner_ft.prompts import completion_text, prompt_messages
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 

@@ -19,8 +19,7 @@ from lm_eval.api.task import ConfigurableTask
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.candidates import all_candidates
-from planner_ft.prompts.render import TODAY
-from planner_ft.prompts.text import PLAIN_FORM, completion_text, prompt_messages
+from planner_ft.prompts import PLAIN_FORM, TODAY, completion_text, prompt_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level

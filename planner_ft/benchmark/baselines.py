@@ -17,7 +17,7 @@ from typing import Any
 
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data
 from planner_ft.data.leakage import input_digest
-from planner_ft.prompts.text import user_text
+from planner_ft.prompts import user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary

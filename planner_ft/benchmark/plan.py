@@ -19,8 +19,7 @@ from planner_ft.decoding.configurations import Configuration, parse_configuratio
 from planner_ft.decoding.constraints.answer import constraint_factory
 from planner_ft.decoding.engine import decoding_threads
 from planner_ft.decoding.sequence import Sampling
-from planner_ft.prompts.render import PROMPT_VERSION, end_of_turn_ids
-from planner_ft.prompts.text import user_text
+from planner_ft.prompts import PROMPT_VERSION, end_of_turn_ids, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_text, sha256_tree
 from planner_ft.vocabulary import Vocabulary, load_vocabulary

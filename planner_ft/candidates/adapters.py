@@ -75,19 +75,15 @@ def adapter_sha256(folder: Path) -> str:
 
 def adapter_record(candidate: Candidate, level: Level, vocabulary: Vocabulary) -> dict[str, Any]:
     """The manifest fields that `check_adapter` compares: base, level and vocabulary."""
-    return {
-        "base": {
-            "name": candidate.name,
-            "repo": candidate.repo,
-            "revision": candidate_revision(candidate),
-            "standin": candidate.is_standin,
-            "weights_sha256": location.weights_sha256(candidate.folder)
-            if candidate.folder
-            else None,
-        },
-        "level": level,
-        "vocabulary": vocabulary.named,
+    folder = candidate.folder
+    base = {
+        "name": candidate.name,
+        "repo": candidate.repo,
+        "revision": candidate_revision(candidate),
+        "standin": candidate.is_standin,
+        "weights_sha256": location.weights_sha256(folder) if folder else None,
     }
+    return {"base": base, "level": level, "vocabulary": vocabulary.named}
 
 
 def candidate_revision(candidate: Candidate) -> str | None:
@@ -97,9 +93,8 @@ def candidate_revision(candidate: Candidate) -> str | None:
 
 
 def check_adapter(
-    folder: Path | str,
+    folder: Path,
     candidate: Candidate,
-    *,
     level: Level | None = None,
     vocabulary: Vocabulary | None = None,
 ) -> None:
@@ -107,7 +102,6 @@ def check_adapter(
     level and vocabulary too where they are given. Reads the weights once for a file that does not
     change. Raises PlannerError in one sentence.
     """
-    folder = Path(folder)
     if not folder.is_dir():
         command = f"`plannerft train --candidate {candidate.name}`"
         raise PlannerError(f"{folder}: no such adapter folder; train one with {command}")
@@ -214,11 +208,12 @@ def _check_shapes(
     """Every LoRA pair must fit the layer that it is named after."""
     if not any(".lora_A." in name for name in shapes):
         raise PlannerError(f"{folder / WEIGHTS}: holds no LoRA matrices; this is no LoRA adapter")
-    for name, shape in shapes.items() if dimensions else ():
-        layer = next((index for index, part in enumerate(LAYERS) if f".{part}.lora_" in name), None)
+    sizes = dict(zip(LAYERS, dimensions.linear_shapes, strict=True)) if dimensions else {}
+    for name, shape in shapes.items():
+        layer = next((part for part in sizes if f".{part}.lora_" in name), None)
         if layer is None or dimensions is None:
             continue
-        rows, columns = dimensions.linear_shapes[layer]
+        rows, columns = sizes[layer]
         fits = shape[-1] == rows if ".lora_A." in name else shape[0] == columns
         block = next((int(part) for part in name.split(".") if part.isdigit()), 0)
         if not fits or block >= dimensions.layers:

@@ -17,7 +17,7 @@ multiplied twice a step, forwards and backwards, and a third time with gradient 
 from __future__ import annotations
 
 from dataclasses import astuple, dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.registry import Candidate, Dimensions, Quantization
 
@@ -175,15 +175,8 @@ ANSWER_TOKENS = 150
 """Of a curated mission plan: 467 characters at 3.2 a token."""
 
 
-class Length(NamedTuple):
-    """Samples of a published training set, passes over them, tokens of a sample (ours)."""
-
-    samples: int
-    epochs: int
-    tokens: int
-
-
-RUNS = {"mission": Length(125, 5, 270), "task": Length(10_000, 2, 420)}
+RUNS = {"mission": (125, 5, 270), "task": (10_000, 2, 420)}
+"""Samples of the published training sets, passes over them, tokens of a sample (ours)."""
 
 
 def expected_times(candidate: Candidate) -> dict[str, Any] | None:
@@ -196,15 +189,10 @@ def expected_times(candidate: Candidate) -> dict[str, Any] | None:
     unpacking = weights * (NF4_BITS / 8 + 2 + 2) / BANDWIDTH
 
     def training(level: str) -> int:
-        run = RUNS[level]
-        product = 2 * weights * run.tokens / (EFFICIENCY * OPERATIONS)
+        samples, epochs, tokens = RUNS[level]
+        product = 2 * weights * tokens / (EFFICIENCY * OPERATIONS)
         step = PASSES * dimensions.layers * max(BLOCK_SECONDS, product + unpacking)
-        return round(run.samples * run.epochs * step)
+        return round(samples * epochs * step)
 
-    answer = ANSWER_TOKENS * dimensions.layers * BLOCK_SECONDS
-    return {
-        "gpu": GPU,
-        "train_mission_s": training("mission"),
-        "train_task_s": training("task"),
-        "answer_s": round(answer, 1),
-    }
+    answer = round(ANSWER_TOKENS * dimensions.layers * BLOCK_SECONDS, 1)
+    return {"gpu": GPU, **{f"train_{of}_s": training(of) for of in RUNS}, "answer_s": answer}

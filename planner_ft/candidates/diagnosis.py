@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 import planner_ft
 from planner_ft.candidates import loading
 from planner_ft.candidates.costs import GIB, device_memory, expected_times, memory_summary
+from planner_ft.candidates.loading import set_packing
 from planner_ft.candidates.location import MODELS_VARIABLE, check_folder, hub_cache
-from planner_ft.candidates.packing import set_packing
 from planner_ft.candidates.registry import Candidate, all_candidates
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder
@@ -165,11 +165,9 @@ def _devices(warnings: list[str]) -> Found:
         found[f"cuda:{index}"] = f"{capability}, {free:.1f} of {total:.1f} GiB free"
     driver = shutil.which("nvidia-smi") or Path("/proc/driver/nvidia").exists()
     if driver and not torch.cuda.is_available():
-        found_none = (
-            f"there is an NVIDIA driver, but torch {torch.__version__} finds no CUDA device"
-        )
+        lack = f"torch {torch.__version__} finds no CUDA device"
         way = "install a CUDA build of torch (https://pytorch.org/get-started)"
-        warnings.append(f"{found_none}; {way}")
+        warnings.append(f"there is an NVIDIA driver, but {lack}; {way}")
     return found
 
 

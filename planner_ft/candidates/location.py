@@ -99,14 +99,10 @@ def safe_weights(folder: Path, name: str) -> Path:
         return folder / name
     pickled = sorted(path for pattern in PICKLED for path in folder.glob(pattern))
     if pickled:
-        why = (
-            f"only pickled weights ({pickled[0].name}), which are never loaded because they can run"
-        )
-        raise PlannerError(f"{folder}: {why} code; get or save them as {name}")
-    way = (
-        "finish the download or training that writes it, or give the folder that holds the weights"
-    )
-    raise PlannerError(f"{folder}: no {name}; {way}")
+        why = "which are never loaded because they can run code; get or save them as"
+        raise PlannerError(f"{folder}: only pickled weights ({pickled[0].name}), {why} {name}")
+    way = "finish the download or training that writes it, or give the folder that holds the"
+    raise PlannerError(f"{folder}: no {name}; {way} weights")
 
 
 def check_safetensors(path: Path) -> dict[str, tuple[int, ...]]:

@@ -147,12 +147,10 @@ class Candidate:
         return self.adapter.get(level, {})
 
     def serving(self, vocabulary: Vocabulary) -> Candidate:
-        """The candidate that plans for this vehicle: itself, or its reader for one that it was not
-        pretrained on.
-        """
-        return (
-            resolve_candidate(self.reader) if self.reader and not self.knows(vocabulary) else self
-        )
+        """The one that plans for a vehicle: itself, or its reader for one that it does not know."""
+        if self.reader is None or self.knows(vocabulary):
+            return self
+        return resolve_candidate(self.reader)
 
     def stored_as(self, level: Level, asked: Quantization | None) -> Quantization:
         """The quantization that was asked for, else the one that its adapters are trained with."""
@@ -183,12 +181,17 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
             return _locate(candidate)
     path = Path(text).expanduser()
     if text and path.is_dir():
-        return _from_folder(path.resolve())
+        folder = path.resolve()
+        vocabulary = read_config(folder).get(VOCABULARY_KEY)
+        return _at(Candidate(name=folder.name, vocabulary=vocabulary), folder, "path")
     if text.startswith((".", "/", "~")):
         way_out = "give one with config.json, tokenizer and weights, or a name that"
         raise PlannerError(f"{text}: no such folder; {way_out} `plannerft candidates` lists")
     if match := HUB_ID.fullmatch(text):
-        return _from_hub(match["repo"], match["revision"])
+        repo = match["repo"]
+        known = (one for one in _registered() if (one.repo or "").lower() == repo.lower())
+        found = next(known, Candidate(name=repo, repo=repo))
+        return _locate(replace(found, revision=match["revision"]))
     raise PlannerError(_unknown(text))
 
 
@@ -238,16 +241,6 @@ def _at(candidate: Candidate, folder: Path, source: Source | None) -> Candidate:
     dimensions = Dimensions.from_config(config) or candidate.dimensions
     here = replace(candidate, folder=folder, source=source, chat=_chat(folder))
     return replace(here, dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
-
-
-def _from_folder(folder: Path) -> Candidate:
-    vocabulary = read_config(folder).get(VOCABULARY_KEY)
-    return _at(Candidate(name=folder.name, vocabulary=vocabulary), folder, "path")
-
-
-def _from_hub(repo: str, revision: str | None) -> Candidate:
-    known = (one for one in _registered() if one.repo and one.repo.lower() == repo.lower())
-    return _locate(replace(next(known, Candidate(name=repo, repo=repo)), revision=revision))
 
 
 def _chat(folder: Path) -> Chat:

@@ -62,9 +62,7 @@ class Calibration:
     manifest: Mapping[str, Any] = field(default_factory=dict)
 
     def probabilities(self, text: str, choices: Choices) -> list[tuple[Part, float]]:
-        """The parts of an answer that is one JSON object, each with its probability, that of the
-        plan first.
-        """
+        """The parts of an answer, one JSON object, each with its probability; the plan first."""
         made = parts(self.level, text, choices)
         return [(part, self.curves[part.kind].probability(part)) for part in made]
 
@@ -152,9 +150,7 @@ NOT_JUDGED = Judgement(NO_LOGPROBS)
 def judge_answer(
     calibration: Calibration | None, reason: str, text: str, choices: Choices | None
 ) -> Judgement:
-    """The judgement of an answer that is one JSON object; `reason` says why there is no
-    calibration.
-    """
+    """The judgement of an answer, one JSON object; `reason` says why there is no calibration."""
     if choices is None:
         return Judgement(NO_LOGPROBS)
     if calibration is None:

@@ -65,26 +65,21 @@ def known(choices: Sequence[Choice] | None, text: str) -> Choices | None:
             return None
     if all(choice.logprob == 0 for choice in choices):
         return None
-    return tuple(
-        choice._replace(logprob=min(0.0, max(choice.logprob, LOWEST))) for choice in choices
-    )
+    return tuple(one._replace(logprob=min(0.0, max(one.logprob, LOWEST))) for one in choices)
 
 
 def as_json(choices: Choices | None) -> list[list[float]] | None:
     """Length, log-probability and margin of every token, as predictions.jsonl has them."""
     if choices is None:
         return None
-    return [
-        [one.length, round(one.logprob, DECIMALS), round(one.margin, DECIMALS)] for one in choices
-    ]
+    rows = ((one.length, one.logprob, one.margin) for one in choices)
+    return [[length, round(held, DECIMALS), round(by, DECIMALS)] for length, held, by in rows]
 
 
 def from_json(value: Any, text: str) -> Choices | None:
     """The choices of a line of predictions.jsonl; None where it holds none that can be."""
     try:
-        found = [
-            Choice(length, logprob, (("", logprob - margin),)) for length, logprob, margin in value
-        ]
+        found = [Choice(length, held, (("", held - margin),)) for length, held, margin in value]
         return known(found, text)
     except (TypeError, ValueError):
         return None

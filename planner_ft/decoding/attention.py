@@ -36,11 +36,9 @@ class Grid:
     def of_row(cls, row: int, start: int, count: int) -> Grid:
         """A single row with any number of tokens; its blocks attend one after the other."""
         width = min(count, BLOCK)
-        starts = range(start, start + count, width)
-        parts = [
-            (slice(block, block + 1), slice(row, row + 1), rounded_up(first + width))
-            for block, first in enumerate(starts)
-        ]
+        starts, own = range(start, start + count, width), slice(row, row + 1)
+        reach = [rounded_up(first + width) for first in starts]
+        parts = [(slice(block, block + 1), own, keys) for block, keys in enumerate(reach)]
         positions = slice(start, start + len(starts) * width)
         return cls(torch.tensor(starts), width, (row, positions), parts)
 

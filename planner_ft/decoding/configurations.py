@@ -47,8 +47,6 @@ def parse_configuration(text: str) -> Configuration:
     every = [Configuration(adapter, one) for one in STRENGTHS for adapter in (False, True)]
     known = {one.name: one for one in every}
     spelt = {f"{one.name}+free": one for one in every[:2]} | known
-    if text.strip() not in spelt:
-        raise PlannerError(
-            f"--configurations {text.strip()}: unknown; there are {', '.join(known)}"
-        )
-    return spelt[text.strip()]
+    if (name := text.strip()) not in spelt:
+        raise PlannerError(f"--configurations {name}: unknown; there are {', '.join(known)}")
+    return spelt[name]

@@ -17,7 +17,7 @@ from planner_ft.candidates import Candidate
 from planner_ft.candidates.loading import load_model, load_tokenizer, require_folder, resolve_device
 from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
-from planner_ft.candidates.tokenizer import FileTokenizer
+from planner_ft.candidates.weights import FileTokenizer
 from planner_ft.confidence.parts import Choice, Choices
 from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
@@ -25,7 +25,7 @@ from planner_ft.decoding.constraints.answer import Factory, constraint_factory
 from planner_ft.decoding.constraints.grammar import TASK_OPENS
 from planner_ft.decoding.constraints.scripts import STEP_OPENS
 from planner_ft.decoding.forward import SmallModel, read_forms
-from planner_ft.decoding.generate import Generation
+from planner_ft.decoding.generate import Answers, Generation, Queries
 from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.sequence import Method, Query, Sampling
@@ -87,18 +87,15 @@ class Engine:
         if lean and target == "cpu":
             with limited_threads(threads):
                 forms = read_forms(candidate, given, **settings)
-        tokenizer: Any = (FileTokenizer.read(folder) if forms else None) or load_tokenizer(
-            candidate
-        )
+        tokenizer: Any = FileTokenizer.read(folder) if forms else None
+        tokenizer = tokenizer or load_tokenizer(candidate)
         if not forms:
             model = load_model(candidate, device=device, adapters=given, **settings)
         config, own = read_config(folder), read_config(folder, "generation_config.json")
         named = own.get("eos_token_id", config.get("eos_token_id"))
         ends, pad = tuple(ends_of_answers(tokenizer, named)), int(tokenizer.pad_token_id)
-        limits = {
-            level: Limits(ends, pad, max_new_tokens or default)
-            for level, default in MAX_NEW_TOKENS.items()
-        }
+        most = MAX_NEW_TOKENS.items()
+        limits = {level: Limits(ends, pad, max_new_tokens or longest) for level, longest in most}
         return cls(model, forms or {}, tokenizer, vocabulary, limits, frozenset(given), threads)
 
     def query(
@@ -115,14 +112,14 @@ class Engine:
 
     def answers(
         self,
-        queries: Sequence[Query],
+        queries: Queries,
         configuration: Configuration,
         *,
         batch_size: int = 16,
         sampling: Sampling | None = None,
-    ) -> Iterator[tuple[int, Generation]]:
-        """Yield (index of the query, answer) as answers are completed: greedy ones, or drawn with
-        `sampling`. The queries are of one level.
+    ) -> Answers:
+        """The answers as they are completed: greedy ones, or drawn with `sampling`. The queries are
+        of one level.
 
         Raises PlannerError when the level has no adapter that the configuration needs, or the token
         limit is too small for its strength.
@@ -130,18 +127,13 @@ class Engine:
         if level := _level(queries):
             method, limits = self.method(level, configuration, sampling), self.limits[level]
             with self.configured(level, configuration) as decoder:
-                yield from generate.generate_unordered(
-                    decoder, queries, limits, method, batch_size=batch_size
-                )
+                how = decoder, queries, limits, method
+                yield from generate.generate_unordered(*how, batch_size=batch_size)
 
     def latencies(
-        self,
-        queries: Sequence[Query],
-        configuration: Configuration,
-        *,
-        sampling: Sampling | None = None,
-    ) -> Iterator[tuple[int, Generation]]:
-        """Yield (index of the query, answer with its latency), one query at a time."""
+        self, queries: Queries, configuration: Configuration, sampling: Sampling | None = None
+    ) -> Answers:
+        """The answers with their latencies, one query at a time."""
         if level := _level(queries):
             method = self.method(level, configuration, sampling)
             with self.configured(level, configuration) as decoder:
@@ -163,9 +155,7 @@ class Engine:
         )
 
     def text(self, answer: Generation) -> str:
-        """The raw text of an answer, without the token that ended it and without its working; other
-        special tokens stay visible.
-        """
+        """The text of an answer without its end token and its working; other specials are shown."""
         return without_working(self._decoded(_said(answer)))[0]
 
     def working(self, answer: Generation) -> str:
@@ -207,10 +197,8 @@ class Engine:
     def configured(self, level: Level, configuration: Configuration) -> Iterator[Decoder]:
         """The model with the adapter of the level, or none, as the configuration says."""
         if configuration.adapter and level not in self.adapters:
-            raise PlannerError(
-                f"configuration {configuration.name} needs an adapter of the {level} level; give"
-                " --adapter"
-            )
+            lack = f"needs an adapter of the {level} level; give --adapter"
+            raise PlannerError(f"configuration {configuration.name} {lack}")
         adapter = level if configuration.adapter else None
         with limited_threads(self.threads):
             if self.lean:
@@ -263,7 +251,7 @@ def _said(answer: Generation) -> tuple[int, ...]:
     return answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
 
 
-def _level(queries: Sequence[Query]) -> Level | None:
+def _level(queries: Queries) -> Level | None:
     """The level of the queries; None where there are none."""
     levels = {query.level for query in queries}
     if len(levels) > 1:

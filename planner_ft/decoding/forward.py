@@ -34,10 +34,8 @@ SHARED, LONG = 64, 256
 """Tokens that prompts must have in common to be copied, and of a prompt that is kept for it."""
 EMBEDDINGS, HEAD, NORM = "model.embed_tokens.weight", "lm_head.weight", "model.norm.weight"
 NORMS = ("input_layernorm", "post_attention_layernorm")
-PROJECTIONS = (
-    *(f"self_attn.{name}_proj" for name in "qkvo"),
-    *(f"mlp.{name}_proj" for name in ("gate", "up", "down")),
-)
+PROJECTIONS = tuple(f"self_attn.{name}_proj" for name in "qkvo")
+PROJECTIONS += tuple(f"mlp.{name}_proj" for name in ("gate", "up", "down"))
 """In the order of Dimensions.linear_shapes."""
 ROPE: dict[str, set[str]] = {
     "default": set(),
@@ -171,14 +169,13 @@ def small_model(config: Mapping[str, Any], tensors: Mapping[str, Tensor]) -> Sma
 
     try:
         embeddings = take(EMBEDDINGS, sizes.vocabulary, hidden)
-        head = left.pop(HEAD, None) if sizes.tied else take(HEAD, sizes.vocabulary, hidden)
+        head = embeddings if sizes.tied else take(HEAD, sizes.vocabulary, hidden)
         layers = tuple(layer(f"model.layers.{index}") for index in range(sizes.layers))
         norm = take(NORM, hidden).float()
     except KeyError:
         return None
-    if left:
+    if left.keys() - ({HEAD} if sizes.tied else set()):
         return None
-    head = embeddings if sizes.tied or head is None else head
     frequencies = _frequencies(_rope(config), sizes.head_dim)
     return SmallModel(layers, embeddings, norm, head, frequencies, sizes, config["rms_norm_eps"])
 
@@ -266,11 +263,9 @@ class SmallPasses:
             fed = linear(model.normalised(states, layer.feed_norm), *layer.gate_up)
             gate, up = fed.chunk(2, -1)
             states = states + linear(silu(gate) * up, *layer.down)
-        kept = [
-            slots * row + len(feed) - step
-            for row, (feed, count) in enumerate(zip(feeds, wanted, strict=True))
-            for step in range(count, 0, -1)
-        ]
+        ends = (slots * row + len(feed) for row, feed in enumerate(feeds))
+        last = (range(end - count, end) for end, count in zip(ends, wanted, strict=True))
+        kept = list(itertools.chain.from_iterable(last))
         return linear(model.normalised(states[kept], model.norm), model.head)
 
     def _attend(
@@ -295,8 +290,8 @@ class SmallPasses:
         queries = pad(queries.permute(0, 2, 3, 1, 4), (0, 0, 0, BLOCK - grid.width))
         queries = queries.reshape(len(queries), key_heads, -1, size)
         found = [
-            attention(queries[part], memory[:, rows, :reach], hidden[part, ..., :reach])
-            for part, rows, reach in grid.parts
+            attention(queries[part], memory[:, rows, :keys], hidden[part, ..., :keys])
+            for part, rows, keys in grid.parts
         ]
         spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)
         spread = spread[..., : grid.width, :]

@@ -54,13 +54,13 @@ class Generation:
     alternatives: int = 0
 
 
+Queries = Sequence[Query]
+Answers = Iterator[tuple[int, Generation]]
+"""Answers as they are completed, each with the index of its query."""
+
+
 def generate(
-    decoder: Decoder,
-    queries: Sequence[Query],
-    limits: Limits,
-    method: Method = PLAIN,
-    *,
-    batch_size: int = 16,
+    decoder: Decoder, queries: Queries, limits: Limits, method: Method = PLAIN, batch_size: int = 16
 ) -> list[Generation]:
     """Answers in the order of the queries."""
     answers = dict(generate_unordered(decoder, queries, limits, method, batch_size=batch_size))
@@ -68,15 +68,10 @@ def generate(
 
 
 def generate_unordered(
-    decoder: Decoder,
-    queries: Sequence[Query],
-    limits: Limits,
-    method: Method = PLAIN,
-    *,
-    batch_size: int = 16,
-) -> Iterator[tuple[int, Generation]]:
-    """Yield (index of the query, answer) as answers are completed, batch by batch, longest prompts
-    first: the largest memory is needed at the start.
+    decoder: Decoder, queries: Queries, limits: Limits, method: Method = PLAIN, batch_size: int = 16
+) -> Answers:
+    """The answers as they are completed, batch by batch, longest prompts first: the largest memory
+    is needed at the start.
 
     In float32 an answer does not depend on the batch. Raises PlannerError when a batch does not fit
     the memory.
@@ -93,20 +88,18 @@ def generate_unordered(
                 yield index, Generation((), "error", 0.0, str(error))
         try:
             for index, answer in _run(decoder, dict(states), began):
-                query, state = queries[index], states[index]
-                yield index, _bounded(decoder, query, limits, method, state, answer)
+                yield index, _bounded(decoder, states[index], answer)
         except torch.OutOfMemoryError as error:
-            raise PlannerError(
-                f"the device has too little memory for --batch-size {batch_size}; give a smaller"
-                " one (what is done is kept for --resume)"
-            ) from error
+            lack = f"the device has too little memory for --batch-size {batch_size}"
+            way = "give a smaller one (what is done is kept for --resume)"
+            raise PlannerError(f"{lack}; {way}") from error
 
 
 def measure_latency(
-    decoder: Decoder, queries: Sequence[Query], limits: Limits, method: Method = PLAIN
-) -> Iterator[tuple[int, Generation]]:
-    """Yield (index of the query, answer), one query after the other; its `seconds` are those from
-    prompt ids to the complete answer.
+    decoder: Decoder, queries: Queries, limits: Limits, method: Method = PLAIN
+) -> Answers:
+    """The answers, one query after the other; `seconds` are those from prompt ids to the complete
+    answer.
 
     A whole query runs first and is not counted: kernels are chosen, 4-bit weights packed and
     grammars compiled then.
@@ -124,25 +117,18 @@ def _room(decoder: Decoder, query: Query, limits: Limits) -> int:
     """Tokens that an answer may have."""
     context, taken = decoder.context, len(query.prompt)
     if context is not None and taken >= context:
-        raise PlannerError(
-            f"the prompt of {taken} tokens leaves no room in the model's context of {context}"
-        )
+        full = f"leaves no room in the model's context of {context}"
+        raise PlannerError(f"the prompt of {taken} tokens {full}")
     return min(limits.max_new_tokens, context - taken if context else limits.max_new_tokens)
 
 
-def _bounded(
-    decoder: Decoder,
-    query: Query,
-    limits: Limits,
-    method: Method,
-    state: SequenceState,
-    answer: Generation,
-) -> Generation:
+def _bounded(decoder: Decoder, state: SequenceState, answer: Generation) -> Generation:
     """The answer, or where it ran on beyond the free one, an answer of bounded length that is held
     to the schema alone; with the cost of all. The free answer begins as this one does up to where
     they diverged, and is only generated until it is long enough.
     """
-    entries, diverged = method.entries, state.diverged
+    method, diverged = state.method, state.diverged
+    entries = method.entries
     if entries is None or diverged is None or method.constraint is None:
         return answer
     made = entries(answer.ids)
@@ -153,7 +139,7 @@ def _bounded(
         return not answer.cut and made <= 2 * entries(ids) + 2
 
     def run(way: Method, **settings: Any) -> Generation:
-        other = SequenceState(query, way, limits, state.longest, **settings)
+        other = SequenceState(state.query, way, state.limits, state.longest, **settings)
         return next(found for _index, found in _run(decoder, {0: other}, time.perf_counter()))
 
     free = run(replace(method, constraint=None), begun=answer.ids[:diverged], enough=enough)
@@ -172,10 +158,8 @@ def _bounded(
 
 
 @torch.inference_mode()
-def _run(
-    decoder: Decoder, states: dict[int, SequenceState], began: float
-) -> Iterator[tuple[int, Generation]]:
-    """Yield (index, answer) as sequences end. `began` is when the work on the batch did."""
+def _run(decoder: Decoder, states: dict[int, SequenceState], began: float) -> Answers:
+    """The answers as sequences end. `began` is when the work on the batch did."""
     share, first = 0.0, 0.0
     passes = decoder.start(len(states))
     while states:

@@ -31,10 +31,7 @@ class Lookup:
     """
 
     def __init__(
-        self,
-        prompt: Sequence[int] = (),
-        likeness: Likeness = lambda token: token,
-        base: Lookup | None = None,
+        self, prompt: Sequence[int] = (), likeness: Likeness = int, base: Lookup | None = None
     ) -> None:
         self._likeness, self._base = likeness, base
         self._likes: list[Hashable] = []
@@ -74,18 +71,14 @@ def usual_plans(level: Level, vocabulary: Vocabulary) -> list[str]:
         lines = read_jsonl(Path(__file__).with_name("plans.jsonl"))
         return [line["plan"] for line in lines if line["level"] == level]
     if level == "mission":
-        tasks = [
-            {"title": task.title, "parameters": _blank(task), "task_prompt": "."}
-            for task in vocabulary.tasks
-        ]
+        rest = {"task_prompt": "."}
+        tasks = [{"title": one.title, "parameters": _blank(one)} | rest for one in vocabulary.tasks]
         return [compact_json({"tasks": tasks, "assumptions": [], "constraints": []})]
     first, steps = vocabulary.skills_in_role("navigation")[0].name, []
     for skill in vocabulary.skills:
         named = {"name": skill.name, "parameters": _blank(skill)}
         name, values = (skill.name, _blank(skill)) if skill.role == "navigation" else (first, {})
-        filters, perceptions = (
-            [named] if skill.role == role else [] for role in ("filter", "perception")
-        )
+        filters, perceptions = ([named] * (skill.role == of) for of in ("filter", "perception"))
         steps.append(plan_step(name, values, filters, perceptions, vocabulary))
     return [compact_json({"skill_sequence": steps})]
 

@@ -52,10 +52,9 @@ class _ModelPasses:
         self.decoder, self.device = decoder, decoder.model.device
         self.cache = DynamicCache(config=decoder.model.config)
         # Layers that keep a window or a state cannot be taken back.
-        self.wide = rows == 1 and all(
-            getattr(layer, "is_croppable", True) and not layer.is_sliding
-            for layer in self.cache.layers
-        )
+        layers = self.cache.layers
+        back = (getattr(one, "is_croppable", True) and not one.is_sliding for one in layers)
+        self.wide = rows == 1 and all(back)
         self.mask = torch.zeros(rows, 0, dtype=torch.long, device=self.device)
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:

@@ -54,9 +54,8 @@ class Sampling:
 
     def __post_init__(self) -> None:
         if not 0 < self.temperature <= 10:
-            raise PlannerError(
-                f"--temperature {self.temperature:g}: must be above 0 and at most 10"
-            )
+            bounds = "must be above 0 and at most 10"
+            raise PlannerError(f"--temperature {self.temperature:g}: {bounds}")
         if not 0 < self.top_p <= 1:
             raise PlannerError(f"--top-p {self.top_p:g}: must be above 0 and at most 1")
 
@@ -160,7 +159,7 @@ class Method:
     constraint: Factory | None = None
     fast_forward: bool = True
     drafting: bool = True
-    likeness: Likeness = lambda token: token
+    likeness: Likeness = int
     base: Lookup | None = None
     sampling: Sampling | None = None
     entries: Callable[[Sequence[int]], int] | None = None
@@ -171,8 +170,7 @@ PLAIN = Method(fast_forward=False, drafting=False)
 
 
 class SequenceState:
-    """An answer of at most `longest` tokens and `most` entries, which begins with the tokens
-    `begun`.
+    """An answer of at most `longest` tokens and `most` entries that begins with tokens `begun`.
 
     `ids` is the answer so far; its last tokens, which the model has not been fed yet, are
     `pending`, and `draft` stands behind them: what the constraint says must follow, then what
@@ -192,12 +190,12 @@ class SequenceState:
         begun: Sequence[int] = (),
         enough: Callable[[Sequence[int]], bool] = lambda ids: False,
     ) -> None:
-        self.end_ids, self.longest = limits.end_ids, longest
+        self.query, self.method, self.limits, self.longest = query, method, limits, longest
         prompt, rules, sampling = query.prompt, method.constraint, method.sampling
         self.constraint = rules.start(query.record, longest, most) if rules else None
         self.lookup = Lookup(prompt, method.likeness, method.base) if method.drafting else None
         self.sampler = sampling.sampler(query.name, longest) if sampling else None
-        self.fast_forward, self._enough, self._wide = method.fast_forward, enough, True
+        self._enough, self._wide = enough, True
         self.ids, self.decided, self.forward_passes = list[int](), 0, 0
         self.scores: list[Score | None] = [None] * len(begun)
         self.finished: FinishReason | None = None
@@ -226,8 +224,8 @@ class SequenceState:
             token = self._choice(best[right], logits[right])
             self._add(token)
             complete = self.constraint is not None and self.constraint.ended
-            if complete and self.fast_forward and not self.finished:
-                self._add(self.end_ids[0])
+            if complete and self.method.fast_forward and not self.finished:
+                self._add(self.limits.end_ids[0])
             if self.finished or draft[right : right + 1] != [token]:
                 break
             right += 1
@@ -275,7 +273,7 @@ class SequenceState:
         self.ids.append(token)
         if self.constraint is not None:
             self.constraint.accept(token)
-        if token in self.end_ids:
+        if token in self.limits.end_ids:
             self.finished = "stop"
         elif len(self.ids) >= self.longest:
             self.finished = "length"
@@ -286,7 +284,7 @@ class SequenceState:
         """Draft what may follow."""
         room = self.longest - len(self.ids) - 1 if self._wide and not self.finished else 0
         constraint, draft = self.constraint, list[int]()
-        if constraint is not None and self.fast_forward:
+        if constraint is not None and self.method.fast_forward:
             draft = constraint.expected()[: min(LONGEST_FORCED, room)]
         if self.lookup is not None:
             draft += self.lookup.propose(min(LONGEST_DRAFT, room) - len(draft), draft)

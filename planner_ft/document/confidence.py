@@ -9,8 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.confidence.calibration import Judgement, sureness
-from planner_ft.planning.doubts import Doubt
-from planner_ft.planning.result import Planned, PlannedTask
+from planner_ft.planning.result import Doubt, Planned, PlannedTask
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Vocabulary
 

@@ -14,8 +14,8 @@ from typing import Any
 from planner_ft.document import entered
 from planner_ft.document.build import PlanDocument, made_safe, places_of, tasks_at
 from planner_ft.document.limits import without_filters
-from planner_ft.planning.doubts import renamed
 from planner_ft.planning.frame import frame_of
+from planner_ft.planning.result import renamed
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import parse_origin
 from planner_ft.vocabulary import Vocabulary

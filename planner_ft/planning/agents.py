@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.loading import resolve_device
@@ -38,11 +39,7 @@ class Agents:
     """
 
     def __init__(
-        self,
-        agents: Mapping[Level, Agent],
-        vocabulary: Vocabulary,
-        device: str = "auto",
-        progress: Progress = silent,
+        self, agents: Mapping[Level, Agent], vocabulary: Vocabulary, device: str, progress: Progress
     ) -> None:
         """Raises PlannerError for a device that there is not."""
         self.agents, self.vocabulary, self._progress = agents, vocabulary, progress
@@ -56,10 +53,10 @@ class Agents:
         """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
         if self._engine is None or level not in self._serves:
             self.release()
-            base, agents = self.agents[level].base, self.agents.items()
-            self._serves = tuple(other for other, agent in agents if agent.base == base)
-            started = time.perf_counter()
-            self._engine = self._loaded(self.agents[level])
+            wanted, started = self.agents[level], time.perf_counter()
+            served = {of: agent for of, agent in self.agents.items() if agent.base == wanted.base}
+            adapters = {of: agent.adapter for of, agent in served.items() if agent.adapter}
+            self._engine, self._serves = self._loaded(wanted, adapters), tuple(served)
             self.load_seconds[level] = time.perf_counter() - started
         return self._engine
 
@@ -78,9 +75,8 @@ class Agents:
     def ask_all(self, level: Level, records: Sequence[dict[str, Any]]) -> list[Answer]:
         """The agent's answers to records in one batch: the same as one by one, and sooner."""
         engine, agent = self.load(level), self.agents[level]
-        queries = [
-            engine.query(level, record, with_vocabulary=agent.with_vocabulary) for record in records
-        ]
+        told = agent.with_vocabulary
+        queries = [engine.query(level, record, with_vocabulary=told) for record in records]
         given = dict(engine.answers(queries, agent.configuration, batch_size=len(queries)))
         return [self._read(engine, query, given[at]) for at, query in enumerate(queries)]
 
@@ -96,9 +92,8 @@ class Agents:
     def _calibration(self, level: Level) -> tuple[Calibration | None, str]:
         """The calibration of an agent, or why there is none."""
         if level not in self._calibrations:
-            agent = self.agents[level]
-            found = read_calibration(agent.calibration, agent.held_for(self.vocabulary))
-            self._calibrations[level] = found
+            agent, known = self.agents[level], self.vocabulary
+            self._calibrations[level] = read_calibration(agent.calibration, agent.held_for(known))
         return self._calibrations[level]
 
     def use(self, level: Level, answers: Sequence[Answer]) -> AgentUse:
@@ -120,16 +115,14 @@ class Agents:
         """Most bytes in use so far: on the GPU, else in this process."""
         return peak_memory(self.device)
 
-    def _loaded(self, agent: Agent) -> Engine:
+    def _loaded(self, agent: Agent, adapters: Mapping[Level, Path]) -> Engine:
         from planner_ft.decoding.engine import Engine, decoding_threads
 
         self._progress(f"{agent.candidate.name}: loading", 0, 0)
-        own = {level: self.agents[level].adapter for level in self._serves}
-        adapters = {level: adapter for level, adapter in own.items() if adapter}
         return Engine.load(
             agent.candidate,
             self.vocabulary,
-            adapters=adapters or None,
+            adapters=adapters,
             device=str(self.device),
             quantization=agent.quantization,
             threads=decoding_threads(agent.candidate, self.device.type),

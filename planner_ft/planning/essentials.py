@@ -16,33 +16,36 @@ from planner_ft.vocabulary import Skill, Vocabulary
 from planner_ft.vocabulary.essentials import essentials_of
 from planner_ft.vocabulary.plans import canonical_parameters, step_skills
 
+TaskEntry = Mapping[str, Any]
 Step = dict[str, Any]
 Added = list[dict[str, Any]]
 """Entries of `added`, in the order of the steps."""
+Completed = tuple[list[Step], Added]
+"""Steps, and what was added to them."""
 VEHICLE = "vehicle"
 """The kind of what stands in a plan because the vehicle's essentials say so."""
 
 
-def missing_defaults(task: Mapping[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+def missing_defaults(task: TaskEntry, vocabulary: Vocabulary) -> dict[str, Any]:
     """The vehicle's values for parameters that a task leaves out."""
     defaults = essentials_of(task["title"], vocabulary).defaults
     return {name: value for name, value in defaults.items() if name not in task["parameters"]}
 
 
-def with_defaults(task: Mapping[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+def with_defaults(task: TaskEntry, vocabulary: Vocabulary) -> dict[str, Any]:
     """The task with the vehicle's values where it states none."""
     given = {**task["parameters"], **copy.deepcopy(missing_defaults(task, vocabulary))}
     known = vocabulary.task.get(task["title"])
     return {**task, "parameters": canonical_parameters(given, known)}
 
 
-def asked(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[str]:
+def asked(task: TaskEntry, vocabulary: Vocabulary) -> list[str]:
     """The parameters that a task needs from the operator; an unresolved position is no such one."""
     needed = essentials_of(task["title"], vocabulary).asks
     return [name for name in needed if name not in task["parameters"]]
 
 
-def question(number: int, task: Mapping[str, Any], vocabulary: Vocabulary) -> str | None:
+def question(number: int, task: TaskEntry, vocabulary: Vocabulary) -> str | None:
     """The question for what a task needs from the operator; None where it needs nothing."""
     names = asked(task, vocabulary)
     if not names:
@@ -61,9 +64,7 @@ def _described(parameter: Any) -> str:
 # ---------------------------------------------------------------- skills
 
 
-def with_essentials(
-    task: Mapping[str, Any], steps: Sequence[Step], vocabulary: Vocabulary
-) -> tuple[list[Step], Added]:
+def with_essentials(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
     """The steps of a task with the skills that are essential to it, and what was added.
 
     A skill that stands in one step alone takes values that it lacks from the task. What a limit in
@@ -83,12 +84,8 @@ def with_essentials(
                 added.append(_mark(index, skill))
     given = task["parameters"]
     for name, takes in needed.takes.items():
-        places = [
-            (index, own)
-            for index, step in enumerate(completed)
-            for _role, own in step_skills(step)
-            if own["name"] == name
-        ]
+        skills = ((at, own) for at, step in enumerate(completed) for _, own in step_skills(step))
+        places = [(at, own) for at, own in skills if own["name"] == name]
         if len(places) == 1:
             (index, own), values = places[0], {key: given.get(of) for key, of in takes.items()}
             mark = _mark(index, vocabulary.skill[name])
@@ -116,11 +113,8 @@ def performing(title: str, steps: Sequence[Step], vocabulary: Vocabulary) -> lis
     """The steps (from 0) that perform a task: those of its motions; an approach is none."""
     during = essentials_of(title, vocabulary).during
     motions = [vocabulary.skill[step["navigation_skill"]["name"]].motion for step in steps]
-    return [
-        index
-        for index, motion in enumerate(motions)
-        if (motion in during if during else motion != "goto")
-    ]
+    performs = (motion in during if during else motion != "goto" for motion in motions)
+    return [index for index, one in enumerate(performs) if one]
 
 
 def _add(step: Step, skill: Skill, parameters: Mapping[str, Any]) -> None:
@@ -134,20 +128,17 @@ def _add(step: Step, skill: Skill, parameters: Mapping[str, Any]) -> None:
 # ---------------------------------------------------------------- what is still the vehicle's
 
 
-def kept_defaults(task: Mapping[str, Any]) -> dict[str, Any]:
+def kept_defaults(task: TaskEntry) -> dict[str, Any]:
     """`defaults` of a document's task without what was changed or removed since."""
-    given = task["parameters"]
-    return {
-        key: value for key, value in task.get("defaults", {}).items() if given.get(key) == value
-    }
+    given, defaults = task["parameters"], task.get("defaults", {})
+    return {key: value for key, value in defaults.items() if given.get(key) == value}
 
 
-def kept_additions(task: Mapping[str, Any]) -> Added:
+def kept_additions(task: TaskEntry) -> Added:
     """`added` of a document's task without what was removed since."""
     steps = task["skill_sequence"] or []
-    return [
-        mark for mark in task.get("added", ()) if mark["step"] < len(steps) and _stands(mark, steps)
-    ]
+    marks = (mark for mark in task.get("added", ()) if mark["step"] < len(steps))
+    return [mark for mark in marks if _stands(mark, steps)]
 
 
 def _stands(mark: Mapping[str, Any], steps: Sequence[Step]) -> bool:
@@ -155,7 +146,7 @@ def _stands(mark: Mapping[str, Any], steps: Sequence[Step]) -> bool:
     return any("parameter" not in mark or mark["parameter"] in own["parameters"] for own in skills)
 
 
-def added_text(task: Mapping[str, Any]) -> str:
+def added_text(task: TaskEntry) -> str:
     """What the vehicle added to a document's task, in words; empty where it added nothing."""
     parts = [f"{name} {value}" for name, value in task.get("defaults", {}).items()]
     steps: dict[str, list[int]] = {}

@@ -57,9 +57,7 @@ class Frame:
 
     @functools.cached_property
     def spoken(self) -> str:
-        """The command with every swap made, and decimal points for the commas of "x = 12,5 and
-        y = 40,5".
-        """
+        """The command with every swap made, and the commas of "x = 12,5 and y = 40,5" as points."""
         parts, done = [], 0
         for swap in self.swaps:
             parts += [self.command[done : swap.start], swap.written]
@@ -86,9 +84,8 @@ class Frame:
 
     def restored(self, plan: Mapping[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
         """The plan with the unresolved location and the command's words in place of each swap."""
-        return {
-            key: self._restored(value, list(vocabulary.unresolved)) for key, value in plan.items()
-        }
+        unknown = list(vocabulary.unresolved)
+        return {key: self._restored(value, unknown) for key, value in plan.items()}
 
     @property
     def _open(self) -> Iterator[Swap]:
@@ -148,10 +145,8 @@ def doubt(command: str, origin: Origin) -> str | None:
     for place in read_geographic(command):
         local, turned = _local(place, origin), _local(place, Origin(*_turned(origin)))
         if local and math.hypot(*local) > FAR:
-            words = (
-                f"{command[place.start : place.end].strip()} is {math.hypot(*local) / 1000:.0f} km"
-            )
-            text = f"{words} from the origin, {origin}"
+            words, away = command[place.start : place.end].strip(), math.hypot(*local) / 1000
+            text = f"{words} is {away:.0f} km from the origin, {origin}"
             if turned and math.hypot(*turned) <= FAR:
                 return f"{text}; latitude and longitude of one of them are likely swapped."
             return f"{text}; is the origin right?"

@@ -28,6 +28,11 @@ GENERAL = ("fence", "keep_out_area", "keep_out", "clearance", "distance", "speed
 for that task alone.
 """
 CORNERS = 3
+Plan = Mapping[str, Any]
+Row = list[list[float]]
+"""Positions, as a command lists them."""
+Write = Callable[..., str]
+"""How a sentence is written: among the constraints or in a prompt."""
 SENTENCE = re.compile(r"(?<=\.)\s+(?=[A-Z])")
 
 
@@ -40,9 +45,7 @@ def limits_in(texts: list[str], limits: Limits) -> list[Limit]:
     return found
 
 
-def with_limits(
-    plan: Mapping[str, Any], vocabulary: Vocabulary, command: str | None = None
-) -> dict[str, Any]:
+def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) -> dict[str, Any]:
     """The mission plan with its limits in the prompts of all tasks, and those that stand in one
     prompt alone among its constraints. A time of return that the command does not say is left out,
     and one that is a duration is a time to be back within. An area that has a corner twice is the
@@ -51,7 +54,7 @@ def with_limits(
     limits = load_limits(vocabulary)
     rows = areas_of(command) if command else []
 
-    def kept(texts: Iterable[str], write: Callable[..., str]) -> list[str]:
+    def kept(texts: Iterable[str], write: Write) -> list[str]:
         whole = (_whole(text, rows, limits, write) for text in texts)
         return list(_kept(whole, command, limits, write))
 
@@ -66,11 +69,8 @@ def with_limits(
     for task, texts in zip(plan["tasks"], prompts, strict=True):
         own = limits_in(texts, limits)
         lacking = (one for one in stated if one not in own)
-        added = dict.fromkeys(
-            prompt_sentence(limit.kind, limit.values, limits)
-            for limit in lacking
-            if holds_for(limit, task["title"], plan["tasks"])
-        )
+        held = (one for one in lacking if holds_for(one, task["title"], plan["tasks"]))
+        added = dict.fromkeys(prompt_sentence(one.kind, one.values, limits) for one in held)
         told = [*texts, *(text for text in added if text not in texts)]
         tasks.append({**task, "task_prompt": " ".join(told) or task["task_prompt"]})
     return {**plan, "tasks": tasks, "constraints": constraints}
@@ -106,9 +106,7 @@ def time_left(values: Mapping[str, Any]) -> float | None:
     return readings[0].value if len(readings) == 1 and readings[0].unit == "s" else None
 
 
-def _kept(
-    texts: Iterable[str], command: str | None, limits: Limits, write: Callable[..., str]
-) -> Iterator[str]:
+def _kept(texts: Iterable[str], command: str | None, limits: Limits, write: Write) -> Iterator[str]:
     """Sentences without times of return that the command does not say."""
     for text in texts:
         limit = read_limit(text, limits)
@@ -121,16 +119,14 @@ def _kept(
             yield write("return", {"within": time}, limits) if lasts else text
 
 
-def areas_of(command: str) -> list[list[list[float]]]:
+def areas_of(command: str) -> list[Row]:
     """The rows of positions of a command that can be the corners of an area."""
     text = without_geographic(command)
     rows = rows_of(text, written_positions(text))
     return [[[place.x, place.y] for place in row] for row in rows if len(row) >= CORNERS]
 
 
-def _whole(
-    text: str, rows: Sequence[list[list[float]]], limits: Limits, write: Callable[..., str]
-) -> str:
+def _whole(text: str, rows: Sequence[Row], limits: Limits, write: Write) -> str:
     """The sentence of a limit with all corners of its area, where it has one of them twice."""
     limit = read_limit(text, limits)
     corners = limit.values.get("polygon", []) if limit else []

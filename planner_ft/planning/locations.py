@@ -23,11 +23,11 @@ from planner_ft.vocabulary.plans import canonical_value, is_position
 from planner_ft.vocabulary.replay import target
 
 Position = tuple[float, float]
+Locations = Mapping[str, Position]
 
 PLACE_WORDS = re.compile(
-    r"\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>[^[\d].*?)"
-    r"(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)",
-    re.IGNORECASE,
+    r"(?i)\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>[^[\d].*?)"
+    r"(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)"
 )
 ARTICLE = re.compile(r"^(?:the|an?|our|your|that|this)\s+", re.IGNORECASE)
 
@@ -82,9 +82,7 @@ def parse_locations(texts: Sequence[str]) -> dict[str, Position]:
     return locations
 
 
-def resolve(
-    plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary
-) -> dict[str, Any]:
+def resolve(plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary) -> dict[str, Any]:
     """The plan with the named places filled in; names match by part, without case and article.
 
     Raises PlannerError for a name that is not open or given twice, and for the unknown position.
@@ -109,7 +107,7 @@ def resolve(
 
 
 def fitting(
-    plan: dict[str, Any], locations: Mapping[str, Position], vocabulary: Vocabulary
+    plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary
 ) -> tuple[dict[str, Position], list[str]]:
     """The locations that resolve takes, and a note for each of the others."""
     fits, notes = dict[str, Position](), list[str]()
@@ -122,7 +120,7 @@ def fitting(
     return fits, notes
 
 
-def charted(chart: Mapping[str, Position], places: Sequence[OpenPlace]) -> dict[str, Position]:
+def charted(chart: Locations, places: Sequence[OpenPlace]) -> dict[str, Position]:
     """The positions of a chart, by open place, that fit just one."""
     found: dict[str, Position] = {}
     for place in places:

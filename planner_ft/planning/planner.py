@@ -9,20 +9,19 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.planning.agents import Agents, Progress, silent
-from planner_ft.planning.doubts import Doubt, doubts
 from planner_ft.planning.essentials import asked, missing_defaults, with_defaults, with_essentials
 from planner_ft.planning.frame import agents_frame
 from planner_ft.planning.limits import with_limits, without_limits
 from planner_ft.planning.locations import (
+    Locations,
     OpenPlace,
-    Position,
     charted,
     fitting,
     is_open,
     open_places,
     resolve,
 )
-from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
+from planner_ft.planning.result import AgentUse, Answer, Doubt, Planned, PlannedTask, doubts
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
 from planner_ft.planning.shapes import with_pass, with_shape
 from planner_ft.support.errors import PlannerError
@@ -47,7 +46,6 @@ class SkillsKnown:
     answer: Answer
 
 
-Locations = Mapping[str, Position]
 OnEvent = Callable[[TasksKnown | SkillsKnown], None]
 """Called while a command is planned, as soon as something of the plan is known."""
 
@@ -112,12 +110,8 @@ class Planner:
             found = charted(chart or {}, open_places(filled, self.vocabulary))
             # A place that the plan does not need is a point of the chart all the same.
             unknown = self.vocabulary.unresolved
-            others = {
-                name: at
-                for name, at in (locations or {}).items()
-                if name not in known and tuple(at) != unknown
-            }
-            chart = {**others, **(chart or {})}
+            others = ((name, at) for name, at in (locations or {}).items() if name not in known)
+            chart = {name: at for name, at in others if tuple(at) != unknown} | {**(chart or {})}
             filled = resolve(filled, found, self.vocabulary)
             located = {name: list(at) for name, at in {**known, **found}.items()}
             places = open_places(filled, self.vocabulary)
@@ -136,9 +130,8 @@ class Planner:
         Task Agent, for a task whose place is open, and for one that lacks what must be asked.
         """
         if "task" not in self.agents.agents:
-            raise PlannerError(
-                f"{task['title']}: there is no Task Agent with --mission-only; leave the flag out"
-            )
+            problem = "there is no Task Agent with --mission-only; leave the flag out"
+            raise PlannerError(f"{task['title']}: {problem}")
         if is_open(task, self.vocabulary):
             problem = "its place is open, and skills to nowhere would be worth nothing"
             raise PlannerError(f"{task['title']}: {problem}; say where it is first")
@@ -170,18 +163,15 @@ class Planner:
         self._progress("Mission Agent", 0, 0)
         answer = self.agents.ask("mission", {"prompt": command})
         if not answer.tokens:
-            raise PlannerError(
-                f"{self.agents.agents['mission'].candidate.name}: {'; '.join(answer.problems)};"
-                " shorten the command, or take another candidate"
-            )
+            name = self.agents.agents["mission"].candidate.name
+            way = "shorten the command, or take another candidate"
+            raise PlannerError(f"{name}: {'; '.join(answer.problems)}; {way}")
         return answer
 
     def _tasks(
         self, plan: dict[str, Any], places: list[OpenPlace], on_event: OnEvent
     ) -> tuple[PlannedTask, ...]:
-        """Every task with the vehicle's defaults, and with its skills unless it waits for a place
-        or an answer, or there is no Task Agent.
-        """
+        """Every task with the vehicle's defaults, and its skills where they can be planned now."""
         waiting = {number: place.name for place in places for number in place.tasks}
         planned = [
             PlannedTask(
@@ -192,12 +182,10 @@ class Planner:
             for number, entry in enumerate(plan["tasks"], start=1)
         ]
         on_event(TasksKnown(tuple(planned)))
-        ready = [
-            at
-            for at, task in enumerate(planned)
-            if task.waits_for is None and not asked(vars(task), self.vocabulary)
+        told = [
+            task.waits_for is None and not asked(vars(task), self.vocabulary) for task in planned
         ]
-        ready = ready if "task" in self.agents.agents else []
+        ready = [at for at, known in enumerate(told) if known and "task" in self.agents.agents]
         for done, at in enumerate(ready):
             self.agents.load("task")
             self._progress("Task Agent", done, len(ready))
@@ -219,16 +207,13 @@ class Planner:
 def check_command(command: str) -> str:
     """The command itself. Raises PlannerError when it is empty or no Unicode text."""
     if not command.strip():
-        raise PlannerError(
-            'the command is empty; say what is to be done, such as plannerft plan "Find the red'
-            ' buoy and come home."'
-        )
+        example = 'plannerft plan "Find the red buoy and come home."'
+        raise PlannerError(f"the command is empty; say what is to be done, such as {example}")
     try:
         command.encode()
     except UnicodeEncodeError as error:
-        raise PlannerError(
-            f"the command is not UTF-8 text (character {error.start + 1}); write it as UTF-8"
-        ) from None
+        where = f"(character {error.start + 1}); write it as UTF-8"
+        raise PlannerError(f"the command is not UTF-8 text {where}") from None
     return command
 
 
@@ -238,10 +223,8 @@ def read_command(stream: Any) -> str:
     try:
         return data.decode("utf-8-sig").strip()
     except UnicodeDecodeError as error:
-        raise PlannerError(
-            f"the command on standard input is not UTF-8 text (byte {error.start}); write it as"
-            " UTF-8"
-        ) from None
+        where = f"(byte {error.start}); write it as UTF-8"
+        raise PlannerError(f"the command on standard input is not UTF-8 text {where}") from None
 
 
 def new_file(path: Path, *, overwrite: bool) -> Path:

@@ -18,7 +18,7 @@ from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
 from planner_ft.confidence.calibration import AGENT, calibration_file
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, parse_configuration
-from planner_ft.prompts.render import PROMPT_VERSION
+from planner_ft.prompts import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level
@@ -118,10 +118,8 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
     if configuration is None or configuration.adapter:
         adapter = Path(own_adapter) if own_adapter else find_adapter(candidate, level, vocabulary)
     elif own_adapter:
-        raise PlannerError(
-            f"--{level}-adapter {own_adapter}: configuration {configuration.name} uses no adapter;"
-            " leave one of them out"
-        )
+        problem = f"configuration {configuration.name} uses no adapter; leave one of them out"
+        raise PlannerError(f"--{level}-adapter {own_adapter}: {problem}")
     if adapter is not None:
         check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
     chosen = configuration or Configuration(adapter is not None, STRENGTHS[-1])

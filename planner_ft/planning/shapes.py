@@ -10,9 +10,8 @@ from __future__ import annotations
 import copy
 import itertools
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from planner_ft.facts import near
 from planner_ft.facts.geometry import (
@@ -25,7 +24,7 @@ from planner_ft.facts.geometry import (
 )
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_bearings, read_positions
-from planner_ft.planning.essentials import VEHICLE, Added, Step
+from planner_ft.planning.essentials import VEHICLE, Added, Completed, Step, TaskEntry
 from planner_ft.planning.limits import without_limits
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value, is_number
@@ -41,9 +40,7 @@ SLACK, SHARE = 0.5, 0.02
 MOST_WAYPOINTS = 128
 
 
-def with_pass(
-    task: Mapping[str, Any], steps: Sequence[Step], vocabulary: Vocabulary
-) -> tuple[list[Step], Added]:
+def with_pass(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
     """The steps with both ends of the pass, and what was added; as they are where they make a pass,
     have more waypoints than one, or where its ends do not follow from the task.
     """
@@ -59,9 +56,7 @@ def with_pass(
     return _placed(whole, zip((first, max(last, first + 1)), nearer, strict=True), vocabulary)
 
 
-def with_shape(
-    task: Mapping[str, Any], steps: Sequence[Step], vocabulary: Vocabulary
-) -> tuple[list[Step], Added]:
+def with_shape(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
     """The steps with the waypoints of the task's shape, and what was set; as they are where
     they make it, do something beside, or where the prompt says more of it than the parameters.
     """
@@ -91,7 +86,7 @@ def with_goal(step: Step, point: Sequence[float], vocabulary: Vocabulary) -> Ste
 
 def _placed(
     steps: Sequence[Step], points: Iterable[tuple[int, Point]], vocabulary: Vocabulary
-) -> tuple[list[Step], Added]:
+) -> Completed:
     """The steps with other waypoints, by index, and a mark for each coordinate."""
     done, marks = [copy.deepcopy(step) for step in steps], Added()
     for at, point in points:
@@ -130,7 +125,7 @@ class Face:
         return (a + c) / 2, (b + d) / 2
 
 
-def face_of(task: Mapping[str, Any], vocabulary: Vocabulary) -> Face | None:
+def face_of(task: TaskEntry, vocabulary: Vocabulary) -> Face | None:
     """The face that a task runs along, where it follows from the task for certain."""
     given = task["parameters"]
     bearings = read_bearings(str(given.get(SIDE, "")))
@@ -144,7 +139,7 @@ def face_of(task: Mapping[str, Any], vocabulary: Vocabulary) -> Face | None:
     return Face((first, last), side, measures[1])
 
 
-def pass_ends(task: Mapping[str, Any], vocabulary: Vocabulary) -> tuple[Point, Point] | None:
+def pass_ends(task: TaskEntry, vocabulary: Vocabulary) -> tuple[Point, Point] | None:
     """Both ends of a pass; None where side, length, distance or place are not known for certain."""
     face = face_of(task, vocabulary)
     if face is None:
@@ -161,7 +156,7 @@ def run_of(points: Sequence[Point]) -> float:
 # ---------------------------------------------------------------- grids, squares and lines
 
 
-def shape_points(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]:
+def shape_points(task: TaskEntry, vocabulary: Vocabulary) -> list[Point]:
     """The waypoints of a task's shape; none where its values are not all known or fit badly."""
     known, given = vocabulary.task[task["title"]], task["parameters"]
     place = given.get(known.position_parameter or "")
@@ -179,9 +174,7 @@ def shape_points(task: Mapping[str, Any], vocabulary: Vocabulary) -> list[Point]
     return points if len(points) <= MOST_WAYPOINTS else []
 
 
-def shape_problem(
-    task: Mapping[str, Any], points: Sequence[Point], vocabulary: Vocabulary
-) -> str | None:
+def shape_problem(task: TaskEntry, points: Sequence[Point], vocabulary: Vocabulary) -> str | None:
     """Why waypoints do not make the pass, grid, line or square of a task, for an operator."""
     known, given = vocabulary.task[task["title"]], task["parameters"]
     if known.pattern == "pass" and is_number(length := given.get(PASS[0])) and points:
@@ -200,18 +193,15 @@ def shape_problem(
     return None
 
 
-def _is_plain(task: Mapping[str, Any], vocabulary: Vocabulary) -> bool:
+def _is_plain(task: TaskEntry, vocabulary: Vocabulary) -> bool:
     """Whether a prompt has no direction and no number beside places and the task's parameters, and
     the run of a line in full.
     """
     prompt, given = without_limits(task["task_prompt"], vocabulary), task["parameters"]
     own = [value for value in given.values() if is_number(value)]
-    places = [(one.start, one.end) for one in read_positions(prompt) if one.certain]
-    said = [
-        number.value
-        for number in read_numbers(prompt)
-        if not any(start <= number.start < end for start, end in places)
-    ]
+    placed = [range(one.start, one.end) for one in read_positions(prompt) if one.certain]
+    outside = (one for one in read_numbers(prompt) if not any(one.start in at for at in placed))
+    said = [number.value for number in outside]
     course, run = (given.get(name) for name in COURSE)
     named = [number.value for number in read_bearings(prompt)]
     return (
@@ -243,9 +233,8 @@ def _grid_problem(size: list[float], spacing: float, points: Sequence[Point]) ->
     """Lanes reach over the whole of one side; along the other less than a spacing may be left."""
     spans = [max(axis) - min(axis) for axis in zip(*points, strict=True)] if points else [0.0, 0.0]
     rest = [extent - span for extent, span in zip(size, spans, strict=True)]
-    fits = [
-        abs(left) <= max(SLACK, SHARE * extent) for left, extent in zip(rest, size, strict=True)
-    ]
+    slack = (max(SLACK, SHARE * extent) for extent in size)
+    fits = [abs(left) <= most for left, most in zip(rest, slack, strict=True)]
     steps = [fit or 0 < left < spacing for fit, left in zip(fits, rest, strict=True)]
     if any(fits) and all(steps):
         return None
@@ -256,10 +245,8 @@ def _grid_problem(size: list[float], spacing: float, points: Sequence[Point]) ->
 
 def _lane_problem(spacing: float, points: Sequence[Point]) -> str | None:
     """Neighbouring lanes are no more than a spacing apart."""
-    apart = min(
-        max((two - one for one, two in itertools.pairwise(sorted(axis))), default=0.0)
-        for axis in zip(*points, strict=True)
-    )
+    axes = (itertools.pairwise(sorted(axis)) for axis in zip(*points, strict=True))
+    apart = min(max((two - one for one, two in pairs), default=0.0) for pairs in axes)
     if not spacing or apart <= spacing * (1 + SHARE) + SLACK:
         return None
     return f"its lanes are {apart:g} m apart, and not {spacing:g} m"

@@ -21,8 +21,7 @@ from planner_ft.data.task.sampler import mission_tasks, sample_tasks
 from planner_ft.data.task.working import working_of
 from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.pretraining.packs import Pack, Part, arrays, draw_packs, packs_in
-from planner_ft.prompts.render import render_sample
-from planner_ft.prompts.text import answer_text, user_text
+from planner_ft.prompts import answer_text, render_sample, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import atomic_writer
 from planner_ft.vocabulary import Vocabulary, load_vocabulary

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.facts.words import known_words
-from planner_ft.prompts.render import prompt_frame, render_sample
+from planner_ft.prompts import prompt_frame, render_sample
 from planner_ft.vocabulary import Task, Vocabulary
 
 if TYPE_CHECKING:

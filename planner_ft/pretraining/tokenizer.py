@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from planner_ft.prompts.text import system_text
+from planner_ft.prompts import system_text
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import LEVELS, MISSION_KEYS, SKILL_KEYS, STEP_KEYS, TASK_KEYS
 

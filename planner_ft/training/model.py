@@ -10,7 +10,7 @@ import torch
 from torch import Tensor, nn
 from torch.utils.checkpoint import checkpoint
 
-from planner_ft.candidates.packing import linear_4bit
+from planner_ft.candidates.loading import linear_4bit
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.training.batches import Batch, collate, validation_batches

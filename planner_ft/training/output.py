@@ -11,7 +11,7 @@ import torch
 
 from planner_ft.candidates.adapters import CONFIG, MANIFEST, SEEN, WEIGHTS, adapter_record
 from planner_ft.candidates.registry import model_metadata
-from planner_ft.prompts.render import prompt_frame, save_tokenizer
+from planner_ft.prompts import prompt_frame, save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, sha256_file, write_json, write_text
 from planner_ft.support.manifest import build_manifest

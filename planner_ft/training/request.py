@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.prompts.render import PROMPT_VERSION
+from planner_ft.prompts import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_toml
 from planner_ft.support.ranks import ALONE, Ranks

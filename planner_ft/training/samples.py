@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.curated import known_tests
 from planner_ft.data.leakage import input_digest
-from planner_ft.prompts import Rendered, render_sample
-from planner_ft.prompts.text import user_text
+from planner_ft.prompts import Rendered, render_sample, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, iterate_jsonl, sha256_file, sha256_text
 from planner_ft.vocabulary import Vocabulary

@@ -11,8 +11,13 @@ import pytest
 import torch
 
 from planner_ft.candidates import loading, resolve_candidate
-from planner_ft.candidates.loading import compute_dtype, load_model, load_tokenizer, resolve_device
-from planner_ft.candidates.packing import linear_4bit
+from planner_ft.candidates.loading import (
+    compute_dtype,
+    linear_4bit,
+    load_model,
+    load_tokenizer,
+    resolve_device,
+)
 from planner_ft.support.errors import PlannerError
 
 SEVEN = [

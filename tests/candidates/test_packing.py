@@ -10,8 +10,7 @@ import torch
 from bitsandbytes.functional import has_avx512bf16
 
 from planner_ft.candidates import resolve_candidate
-from planner_ft.candidates.loading import load_model
-from planner_ft.candidates.packing import is_packed, linear_4bit, set_packing
+from planner_ft.candidates.loading import is_packed, linear_4bit, load_model, set_packing
 from planner_ft.support.errors import PlannerError
 
 needs_kernel = pytest.mark.skipif(

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.loading import load_tokenizer
-from planner_ft.candidates.tokenizer import FileTokenizer
+from planner_ft.candidates.weights import FileTokenizer
 from planner_ft.prompts import end_of_turn_ids, render_prompt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_jsonl, write_json

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 from planner_ft.cli.app import app
 from planner_ft.data.generate import GenerationSettings, generate
-from planner_ft.prompts.text import chat_messages
+from planner_ft.prompts import chat_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, sha256_file, write_jsonl
 from planner_ft.vocabulary import load_vocabulary

@@ -19,8 +19,7 @@ from planner_ft.document.confidence import (
     open_choices,
 )
 from planner_ft.document.tree import plan_tree
-from planner_ft.planning.doubts import doubts
-from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask
+from planner_ft.planning.result import AgentUse, Answer, Planned, PlannedTask, doubts
 from planner_ft.review.commands import parse_edit
 from planner_ft.support.errors import PlannerError
 from tests.documents import USV, document, step

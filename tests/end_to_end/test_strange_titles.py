@@ -15,8 +15,7 @@ import planner_ft.candidates
 from planner_ft.data.missions import sample_missions
 from planner_ft.decoding.constraints.answer import constraint_factory
 from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
-from planner_ft.prompts import end_of_turn_ids
-from planner_ft.prompts.text import answer_text
+from planner_ft.prompts import answer_text, end_of_turn_ids
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 

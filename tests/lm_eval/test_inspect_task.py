@@ -12,7 +12,7 @@ pytestmark = pytest.mark.peers
 
 from planner_ft.benchmark.samples import load_bench_data  # noqa: E402
 from planner_ft.benchmark.scoring import score_sample  # noqa: E402
-from planner_ft.prompts.text import prompt_messages  # noqa: E402
+from planner_ft.prompts import prompt_messages  # noqa: E402
 from planner_ft.vocabulary import load_vocabulary  # noqa: E402
 
 ROOT = Path(__file__).parents[2]

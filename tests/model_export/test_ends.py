@@ -77,7 +77,7 @@ def test_plain_generation_ends_where_training_ended(name, standins, tmp_path, mo
 def test_the_adapters_chat_template_writes_no_date_of_today(name, standins, tmp_path, monkeypatch):
     from transformers import AutoTokenizer
 
-    from planner_ft.prompts.render import render_prompt, save_tokenizer
+    from planner_ft.prompts import render_prompt, save_tokenizer
 
     monkeypatch.setenv("PLANNERFT_MODELS", str(standins))
     request = build_request({"level": "mission", "candidate": name}, {})

@@ -21,7 +21,7 @@ from planner_ft.pretraining.loop import (
     pretrain,
 )
 from planner_ft.pretraining.tokenizer import train_tokenizer
-from planner_ft.prompts.text import system_text
+from planner_ft.prompts import system_text
 from planner_ft.vocabulary import load_vocabulary
 
 VOCABULARY = load_vocabulary()

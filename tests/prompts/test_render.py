@@ -9,8 +9,15 @@ import pytest
 
 from planner_ft.candidates.loading import load_tokenizer
 from planner_ft.candidates.registry import resolve_candidate
-from planner_ft.prompts.render import TODAY, end_of_turn_ids, render_prompt, render_sample
-from planner_ft.prompts.text import completion_text, system_text, user_text
+from planner_ft.prompts import (
+    TODAY,
+    completion_text,
+    end_of_turn_ids,
+    render_prompt,
+    render_sample,
+    system_text,
+    user_text,
+)
 from planner_ft.vocabulary import load_vocabulary
 from scripts.make_standins import make_standin
 

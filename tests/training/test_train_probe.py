@@ -65,7 +65,7 @@ def test_weights_packed_by_evaluation_are_found(prepared):
     """The failure of bitsandbytes 0.50 on CPUs with AVX512-BF16: its layers pack in the first
     evaluation.
     """
-    from planner_ft.candidates.packing import set_packing
+    from planner_ft.candidates.loading import set_packing
 
     request, found = prepared
     model, _ = ready_model(request, found)

@@ -15,8 +15,7 @@ from trl import SFTConfig, SFTTrainer  # noqa: E402
 
 from planner_ft.candidates.loading import load_model, load_tokenizer  # noqa: E402
 from planner_ft.data.generate import GenerationSettings, generate  # noqa: E402
-from planner_ft.prompts.render import with_fixed_date  # noqa: E402
-from planner_ft.prompts.text import chat_messages  # noqa: E402
+from planner_ft.prompts import chat_messages, with_fixed_date  # noqa: E402
 from planner_ft.training.model import attach_adapter  # noqa: E402
 from planner_ft.training.run import train  # noqa: E402
 

@@ -10,8 +10,7 @@ import pytest
 import torch
 
 from planner_ft.candidates import resolve_candidate
-from planner_ft.candidates.loading import load_model
-from planner_ft.candidates.packing import linear_4bit
+from planner_ft.candidates.loading import linear_4bit, load_model
 from planner_ft.training.model import attach_adapter, unpack
 from planner_ft.training.settings import TrainSettings
 

@@ -15,7 +15,7 @@ from planner_ft.benchmark.sources import Fields, Timed
 from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Unanswerable
 from planner_ft.benchmark.sources.replies import Reply
 from planner_ft.confidence.parts import as_json
-from planner_ft.prompts.text import prompt_messages
+from planner_ft.prompts import prompt_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level

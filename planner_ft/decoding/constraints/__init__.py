@@ -1,10 +1,10 @@
 """Constrained decoding: which tokens may follow, so that an answer cannot leave the rules of its
 strength.
 
-`answer.constraint_factory` compiles once per (tokenizer, level, vocabulary, strength); `start` gives
-the state of one answer, which the generation loop asks for a mask before each choice and tells
-every token that was chosen. What may be written as a value is in `grammar` (schema) and `grounded`,
-what may follow what in `scripts`.
+`answer.constraint_factory` compiles once per (tokenizer, level, vocabulary, strength); `start`
+gives the state of one answer, which the generation loop asks for a mask before each choice and
+tells every token that was chosen. What may be written as a value is in `grammar` (schema) and
+`grounded`, what may follow what in `scripts`.
 """
 
 import numpy as np

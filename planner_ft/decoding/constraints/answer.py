@@ -31,12 +31,8 @@ if TYPE_CHECKING:
 
 _NUMBER = 2 + WHOLE_DIGITS + DECIMALS
 _POSITION = 2 * _NUMBER + 3
-_BYTES = {
-    "number": _NUMBER,
-    "integer": _NUMBER,
-    "position": _POSITION,
-    "polygon": 3 * (_POSITION + 1) + 1,
-}
+_BYTES = {"number": _NUMBER, "integer": _NUMBER, "position": _POSITION}
+_BYTES["polygon"] = 3 * (_POSITION + 1) + 1
 """Bytes that a value takes at most when everything that can be left out is."""
 QUOTE = re.compile(rb'(?:\\.|[^"\\])*"', re.DOTALL)
 Notes = Callable[[str], list[str]]
@@ -301,10 +297,9 @@ class Factory:
 
 def _most_bytes(owner: Task | Skill) -> int:
     """Bytes of a name and the parameters that must be written, or the one that was begun."""
-    sizes = [
-        len(f",{lark.key(item.name)}".encode()) + _BYTES.get(item.type, LONGEST_WORD)
-        for item in owner.parameters
-    ]
-    needed = bool(owner.require_any) or any(item.required for item in owner.parameters)
+    every = owner.parameters
+    keys = (len(f",{lark.key(item.name)}".encode()) for item in every)
+    sizes = [own + _BYTES.get(of.type, LONGEST_WORD) for own, of in zip(keys, every, strict=True)]
+    needed = bool(owner.require_any) or any(item.required for item in every)
     opens = len(compact_json({"name": lark.name_of(owner), "parameters": {}}).encode())
     return opens + (sum(sizes) if needed else max(sizes, default=0))

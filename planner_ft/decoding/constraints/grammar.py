@@ -28,7 +28,10 @@ LONGEST_TEXT = 200
 LONGEST_PROSE = 400
 """Characters of a parameter, and of a sentence; the longest labels have 55 and 181."""
 
-Positions = Sequence[Sequence[float]]
+Numbers = Sequence[float]
+Positions = Sequence[Numbers]
+Symbol = str | None
+"""The name of a rule or terminal; None where there is nothing to write."""
 
 TASK_OPENS = '{"title":"'
 SKILL_OPENS = '{"name":"'
@@ -62,13 +65,11 @@ Options = list[tuple[str, Context]]
 
 
 class Values:
-    """What may be written as a value: all that the strict schema allows, up to the bounds above. A
-    symbol is None where there is nothing to write.
-    """
+    """What may be written as a value: all that the strict schema allows, up to the bounds above."""
 
     def parameter(self, grammar: Grammar, parameter: Parameter, context: Context) -> Options:
         """The options of a parameter's value; none where there is nothing to write."""
-        symbol: str | None
+        symbol: Symbol
         kind = parameter.type
         if kind in ("number", "integer"):
             symbol = self.number(grammar, parameter)
@@ -81,14 +82,12 @@ class Values:
         after = context | IDENTIFIED if kind == "id" else context
         return [(symbol, after)] if symbol else []
 
-    def position(self, grammar: Grammar, without: Positions = ()) -> str | None:
+    def position(self, grammar: Grammar, without: Positions = ()) -> Symbol:
         """The symbol of a position, none of `without`."""
         barred = none_of(literal(written(place)) for place in without)
         return grammar.terminal(f"{regex(patterns.ANY_POSITION)}{barred}")
 
-    def number(
-        self, grammar: Grammar, parameter: Parameter, without: Sequence[float] = ()
-    ) -> str | None:
+    def number(self, grammar: Grammar, parameter: Parameter, without: Numbers = ()) -> Symbol:
         """The symbol of a parameter's number, none of `without`."""
         whole, low, high = parameter.type == "integer", parameter.minimum, parameter.maximum
         pattern, beyond = patterns.any_number(whole=whole), list[str]()
@@ -101,12 +100,12 @@ class Values:
         """Whether a parameter's number can be `value`."""
         return plans.value_problem(value, parameter) is None
 
-    def text(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
+    def text(self, grammar: Grammar, without: Sequence[str] = ()) -> Symbol:
         """The symbol of a parameter's text, none of `without`."""
         pattern = patterns.string(LONGEST_TEXT, blank=False)
         return grammar.terminal(f"{pattern}{none_of_texts(without)}")
 
-    def identity(self, grammar: Grammar) -> str | None:
+    def identity(self, grammar: Grammar) -> Symbol:
         """The symbol of an identifier."""
         whole = grammar.terminal(regex(patterns.ANY_INTEGER))
         return grammar.rule(f"{self.text(grammar)} | {whole}")
@@ -222,7 +221,7 @@ def none_of(terminals: Iterable[str]) -> str:
     return "".join(f" & ~{terminal}" for terminal in terminals)
 
 
-def one_of(grammar: Grammar, texts: Iterable[str]) -> str | None:
+def one_of(grammar: Grammar, texts: Iterable[str]) -> Symbol:
     """The terminal that matches one of the texts; None where there is none."""
     options = list(dict.fromkeys(texts))
     return grammar.terminal(" | ".join(map(literal, options))) if options else None

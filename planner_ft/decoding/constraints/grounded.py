@@ -24,8 +24,10 @@ from planner_ft.decoding.constraints import grammar as lark
 from planner_ft.decoding.constraints.grammar import (
     Context,
     Grammar,
+    Numbers,
     Options,
     Positions,
+    Symbol,
     Values,
     none_of_texts,
 )
@@ -96,9 +98,8 @@ class Spans:
         names: dict[int, str] = {}
         for index in range(len(self._pieces) - 1, -1, -1):
             piece = self._pieces[index]
-            following = [
-                f"{literal(gap)} {names[place]}" for gap, place in piece.following if place in names
-            ]
+            after = ((gap, names[place]) for gap, place in piece.following if place in names)
+            following = [f"{literal(gap)} {name}" for gap, name in after]
             if piece.forms and (following or piece.ends):
                 forms = " | ".join(map(literal, piece.forms))
                 behind = f"({' | '.join(following)})" if following else ""
@@ -175,12 +176,7 @@ class GroundedValues(Values):
     """
 
     def __init__(
-        self,
-        level: Level,
-        record: dict[str, Any],
-        vocabulary: Vocabulary,
-        *,
-        free_waypoints: bool = False,
+        self, level: Level, record: dict[str, Any], vocabulary: Vocabulary, *, free_waypoints: bool
     ) -> None:
         self._vocabulary, self._level = vocabulary, level
         known = record if level == "task" else {"prompt": record.get("prompt")}
@@ -188,9 +184,8 @@ class GroundedValues(Values):
         self._facts = facts = source.facts
         self._spans = Spans([facts.text, *source.texts])
         coordinates = [item for skill in vocabulary.skills for item in skill.coordinates]
-        self._numbers: dict[Parameter, list[str] | None] = (
-            dict.fromkeys(coordinates) if free_waypoints else {}
-        )
+        self._numbers: dict[Parameter, list[str] | None] = {}
+        self._numbers |= dict.fromkeys(coordinates if free_waypoints else ())
         stated = [(round(place.x, 2), round(place.y, 2)) for place in facts.positions]
         stated = [place for place in stated if max(map(abs, place)) < LARGEST]
         self._places = list(dict.fromkeys([vocabulary.home, vocabulary.unresolved, *stated]))
@@ -204,9 +199,7 @@ class GroundedValues(Values):
         # Without evidence of its kind, a value that must be written is the model's.
         return found or (Values().parameter(grammar, parameter, context) * parameter.required)
 
-    def number(
-        self, grammar: Grammar, parameter: Parameter, without: Sequence[float] = ()
-    ) -> str | None:
+    def number(self, grammar: Grammar, parameter: Parameter, without: Numbers = ()) -> Symbol:
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().number(grammar, parameter, without)
@@ -219,7 +212,7 @@ class GroundedValues(Values):
             return super().has_number(parameter, value)
         return lark.written(value) in numbers
 
-    def position(self, grammar: Grammar, without: Positions = ()) -> str | None:
+    def position(self, grammar: Grammar, without: Positions = ()) -> Symbol:
         barred = {tuple(other) for other in without}
         if self._facts.unread or self._facts.loose:
             return super().position(grammar, without)
@@ -232,12 +225,12 @@ class GroundedValues(Values):
         allowed = (place for place in places if tuple(place) not in barred)
         return lark.one_of(grammar, map(lark.written, allowed))
 
-    def text(self, grammar: Grammar, without: Sequence[str] = ()) -> str | None:
+    def text(self, grammar: Grammar, without: Sequence[str] = ()) -> Symbol:
         if self._spans.too_long:
             return super().text(grammar, without)
         return self._spans.terminal(grammar, without)
 
-    def identity(self, grammar: Grammar) -> str | None:
+    def identity(self, grammar: Grammar) -> Symbol:
         return self.text(grammar)
 
     def prose(self, grammar: Grammar) -> str:

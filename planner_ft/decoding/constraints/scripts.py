@@ -168,11 +168,9 @@ class TaskScript(Script):
             return replace(ahead, role="navigation", beside=(), written=STEP_OPENS)
         role: Role = "perception" if PERCEPTIONS in text else "filter"
         step = json.loads(text.removesuffix(SKILL_OPENS).removesuffix(",") + "]}")
-        beside = (
-            (self.vocabulary.skill[one["name"]], one["parameters"])
-            for one in step[f"{role}_skills"]
-        )
-        return replace(ahead, role=role, beside=tuple(beside), written=text)
+        known, listed = self.vocabulary.skill, step[f"{role}_skills"]
+        beside = tuple((known[one["name"]], one["parameters"]) for one in listed)
+        return replace(ahead, role=role, beside=beside, written=text)
 
     def offers(self, owner: Skill) -> bool:
         if self.logical and self.role == "navigation":
@@ -212,12 +210,10 @@ class TaskScript(Script):
             ways = [literal("," + STEP_OPENS)] if count < self.most else []
             if not (ways and self.whole and self.whole.unfinished(self._path, int(going))):
                 ways.append(literal(CLOSES))
-            tail = (
-                f"{literal(',' + key(name))} {self.values.step_texts(grammar, name)}"
-                for name in STEP_KEYS[3:]
-            )
-            texts = grammar.rule(f"{' '.join(tail)} {literal('}')}")
-            behind = f"{literal(']')} {texts} ({' | '.join(ways)})"
+            keys, texts = STEP_KEYS[3:], self.values.step_texts
+            tail = (f"{literal(',' + key(name))} {texts(grammar, name)}" for name in keys)
+            reports = grammar.rule(f"{' '.join(tail)} {literal('}')}")
+            behind = f"{literal(']')} {reports} ({' | '.join(ways)})"
         more = len(used) < lark.MOST_SKILLS and any(
             not (self.logical and skill in used)
             or (skill.parameters and used.count(skill) < MOST_ALIKE)
@@ -236,8 +232,9 @@ class TaskScript(Script):
         kind = parameter.type
         if self.logical and parameter in owner.coordinates:
             axis = owner.coordinates.index(parameter)
-            coordinate = self._waypoint if self._columns else self._coordinate
-            return coordinate(grammar, parameter, axis, context)
+            if self._columns:
+                return self._waypoint(grammar, axis, context)
+            return self._coordinate(grammar, parameter, axis, context)
         if self.logical and kind == "polygon":
             corner = self.values.position(grammar, (self.vocabulary.unresolved,))
             symbol = lark.corners(grammar, corner) if corner else None
@@ -278,9 +275,7 @@ class TaskScript(Script):
             columns.setdefault(x, []).append(y)
         return columns
 
-    def _waypoint(
-        self, grammar: Grammar, _parameter: Parameter, axis: int, context: Context
-    ) -> Options:
+    def _waypoint(self, grammar: Grammar, axis: int, context: Context) -> Options:
         """A coordinate of one of the points."""
         if axis == 0:
             return [(literal(x), context | {f"x {x}"}) for x in self._columns]

@@ -134,10 +134,8 @@ def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = No
         engine = LLTokenizer(_definition(tokenizer), width, eos_token=list(end_ids), slices=slices)
         return Tokens(engine, width, end_ids)
     except ValueError as error:
-        raise PlannerError(
-            f"the tokenizer cannot be constrained ({error}); decode at strength free, or give a"
-            " candidate with tokenizer.json"
-        ) from error
+        way = "decode at strength free, or give a candidate with tokenizer.json"
+        raise PlannerError(f"the tokenizer cannot be constrained ({error}); {way}") from error
 
 
 def _definition(tokenizer: Any) -> str:

@@ -77,10 +77,9 @@ class Waypoints:
             anew = dict.fromkeys((*ground.places, *self._starts))
             return [point for point in anew if point not in before[-1:]]
         away = ground.away(dict.fromkeys((*before[-1:], *ground.places)))
-        options = itertools.chain(
-            ground.places, before, self._starts, onward, away, itertools.product(*self.worked)
-        )
-        return [point for point in dict.fromkeys(options) if point not in before[-1:]]
+        stated, worked = (*ground.places, *before, *self._starts), itertools.product(*self.worked)
+        options = dict.fromkeys(itertools.chain(stated, onward, away, worked))
+        return [point for point in options if point not in before[-1:]]
 
     def unfinished(self, before: Path, more: int = 0) -> bool:
         """Whether a path that must be whole is incomplete after `before` and `more` waypoints."""
@@ -89,11 +88,8 @@ class Waypoints:
 
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
         """The paths that begin with the last waypoints, with how many: those with the most."""
-        found = [
-            (path, place + 1)
-            for path, place in self._passing.get(before[-1] if before else (), ())
-            if path[: place + 1] == before[-place - 1 :]
-        ]
+        passing = self._passing.get(before[-1], ()) if before else ()
+        found = [(path, done) for path, done in passing if path[:done] == before[-done:]]
         most = max((done for _path, done in found), default=0)
         return [(path, done) for path, done in found if done == most]
 
@@ -102,12 +98,12 @@ class Waypoints:
         return list(dict.fromkeys(path[0] for path in self.paths))
 
     @functools.cached_property
-    def _passing(self) -> dict[tuple[float, ...], list[tuple[Path, int]]]:
-        """The paths by the waypoints that they pass, each with its number on the path."""
-        passing: dict[tuple[float, ...], list[tuple[Path, int]]] = {}
+    def _passing(self) -> dict[Point, list[tuple[Path, int]]]:
+        """The paths by the waypoints that they pass, each with its number (from 1) on the path."""
+        passing: dict[Point, list[tuple[Path, int]]] = {}
         for path in self.paths:
-            for place, point in enumerate(path):
-                passing.setdefault(point, []).append((path, place))
+            for number, point in enumerate(path, start=1):
+                passing.setdefault(point, []).append((path, number))
         return passing
 
 
@@ -125,13 +121,12 @@ def read_waypoints(record: dict[str, Any], vocabulary: Vocabulary) -> Waypoints 
         return Waypoints(ground, own, begun=1, whole=True)
     grid = pattern == "lawnmower" or GRID.search(source.facts.text)
     lanes = (
-        path
+        _lanes((x, y), width, length, spacing)
         for x, y, width, length in (ground.areas if grid else ())
         for spacing in ground.spacings(width, length)
-        for path in _lanes((x, y), width, length, spacing)
     )
-    found = itertools.islice(itertools.chain(lanes, _rings(ground)), MOST_PATHS)
-    paths = tuple(dict.fromkeys(found))
+    found = itertools.chain(itertools.chain.from_iterable(lanes), _rings(ground))
+    paths = tuple(dict.fromkeys(itertools.islice(found, MOST_PATHS)))
     if pattern in SHAPED and not paths:
         lacking = SHAPED[pattern]
         return f"The command states no {lacking} for {title}; its waypoints are the model's."

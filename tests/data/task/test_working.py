@@ -13,7 +13,7 @@ import pytest
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.working import SUM, working_of
 from planner_ft.facts import geometry as g
-from planner_ft.prompts.text import answer_text, completion_text
+from planner_ft.prompts import answer_text, completion_text
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import without_working
 

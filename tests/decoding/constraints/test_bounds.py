@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.configurations import Strength
-from planner_ft.prompts.text import completion_text
+from planner_ft.prompts import completion_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import load_vocabulary

@@ -13,7 +13,7 @@ from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.data.task.steps import plan_step
 from planner_ft.facts import missing_words
 from planner_ft.facts.geometry import lawnmower
-from planner_ft.prompts.text import completion_text
+from planner_ft.prompts import completion_text
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level, named_entries, plan_problems

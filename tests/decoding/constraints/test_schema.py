@@ -14,7 +14,7 @@ import pytest
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.constraints.answer import constraint_factory
-from planner_ft.prompts.text import answer_text
+from planner_ft.prompts import answer_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary

@@ -11,7 +11,7 @@ import pytest
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.configurations import Strength
 from planner_ft.decoding.constraints.tokens import Tokens, allows
-from planner_ft.prompts.text import answer_text
+from planner_ft.prompts import answer_text
 from planner_ft.vocabulary import load_vocabulary
 
 from .conftest import answer_ids, make_factory

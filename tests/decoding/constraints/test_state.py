@@ -11,7 +11,7 @@ from planner_ft.data.missions import sample_missions
 from planner_ft.data.rules import rule_problems
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.decoding.configurations import Strength
-from planner_ft.prompts.text import answer_text
+from planner_ft.prompts import answer_text
 from planner_ft.support.files import compact_json, read_jsonl
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import build_vocabulary

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.confidence.calibration import Judgement
 from planner_ft.document import build, write_document
-from planner_ft.planning.doubts import Doubt
+from planner_ft.planning.result import Doubt
 from planner_ft.support.errors import PlannerError
 from tests.documents import USV
 from tests.review.web.page.conftest import COMMAND, TASKS, Page, go, make_plan, planned, step
