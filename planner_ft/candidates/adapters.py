@@ -24,8 +24,6 @@ SHIPPED = Path("candidates") / "shipped_adapters"
 """Where a wheel carries the embedded candidate's (tool.hatch.build.targets.wheel.force-include)."""
 AGAIN = "copy the adapter again, or train it again"
 LAYERS = ("q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj")
-EXPONENTS = {"F32": ("<u4", 0x7F800000), "F16": ("<u2", 0x7C00), "BF16": ("<u2", 0x7F80)}
-"""Unsigned type and exponent bits of a safetensors dtype: all ones in NaN and infinity."""
 
 
 def adapter_folder(candidate: Candidate, level: Level, root: Path = ADAPTERS) -> Path:
@@ -151,15 +149,10 @@ def _check_content(folder: Path, digests: dict[str, str]) -> None:
 @functools.lru_cache(maxsize=64)
 def _infinite_tensor(path: Path, size: int, modified: int) -> str | None:
     """The first tensor of a safetensors file with a value that is not finite."""
-    import numpy as np
-    from safetensors import deserialize
+    from safetensors.torch import load_file
 
-    for name, tensor in deserialize(path.read_bytes()):  # type: ignore[no-untyped-call]
-        if tensor["dtype"] in EXPONENTS:
-            kind, ones = EXPONENTS[tensor["dtype"]]
-            if bool(((np.frombuffer(tensor["data"], kind) & ones) == ones).any()):
-                return str(name)
-    return None
+    tensors: dict[str, Any] = load_file(path)
+    return next((name for name, one in tensors.items() if not one.float().isfinite().all()), None)
 
 
 def _config(folder: Path) -> dict[str, Any]:

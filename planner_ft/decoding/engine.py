@@ -6,7 +6,7 @@ import contextlib
 import functools
 import gc
 import itertools
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -232,13 +232,7 @@ class Engine:
     @functools.cached_property
     def _likeness(self) -> Likeness:
         """Tokens are alike that differ in case or in the space before them alone."""
-        decode = self.tokenizer.decode
-
-        @functools.cache
-        def likeness(token: int) -> Hashable:
-            return decode([token]).strip().lower() or token
-
-        return likeness
+        return functools.cache(lambda token: self._piece(token).strip().lower() or token)
 
     @functools.cached_property
     def _piece(self) -> Callable[[int], str]:

@@ -18,15 +18,7 @@ import torch
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import RAN_ON
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.sequence import (
-    PLAIN,
-    FinishReason,
-    Method,
-    Query,
-    Score,
-    SequenceState,
-    scores,
-)
+from planner_ft.decoding.sequence import FinishReason, Method, Query, Score, SequenceState, scores
 from planner_ft.support.errors import PlannerError
 
 
@@ -54,6 +46,8 @@ class Generation:
     alternatives: int = 0
 
 
+PLAIN = Method(fast_forward=False, drafting=False)
+"""Greedy generation, a forward pass per token."""
 Queries = Sequence[Query]
 Answers = Iterator[tuple[int, Generation]]
 """Answers as they are completed, each with the index of its query."""

@@ -165,10 +165,6 @@ class Method:
     entries: Callable[[Sequence[int]], int] | None = None
 
 
-PLAIN = Method(fast_forward=False, drafting=False)
-"""Greedy generation, a forward pass per token."""
-
-
 class SequenceState:
     """An answer of at most `longest` tokens and `most` entries that begins with tokens `begun`.
 

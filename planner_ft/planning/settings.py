@@ -6,13 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.candidates import Candidate, resolve_candidate
-from planner_ft.candidates.adapters import (
-    adapter_sha256,
-    check_adapter,
-    find_adapter,
-    prompt_has_vocabulary,
-)
+from planner_ft.candidates import Candidate, adapters, resolve_candidate
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256
 from planner_ft.candidates.registry import Quantization
@@ -81,7 +75,7 @@ class Agent:
             "quantization": self.quantization,
             "weights_sha256": weights_sha256(folder) if folder else None,
             "adapter": str(self.adapter) if self.adapter else None,
-            "adapter_sha256": self.adapter and adapter_sha256(self.adapter),
+            "adapter_sha256": self.adapter and adapters.adapter_sha256(self.adapter),
             "prompt_format": PROMPT_VERSION,
             "vocabulary_in_the_prompt": self.with_vocabulary,
         }
@@ -116,12 +110,16 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
     configuration = parse_configuration(wanted) if wanted else None
     adapter = None
     if configuration is None or configuration.adapter:
-        adapter = Path(own_adapter) if own_adapter else find_adapter(candidate, level, vocabulary)
+        adapter = (
+            Path(own_adapter)
+            if own_adapter
+            else adapters.find_adapter(candidate, level, vocabulary)
+        )
     elif own_adapter:
         problem = f"configuration {configuration.name} uses no adapter; leave one of them out"
         raise PlannerError(f"--{level}-adapter {own_adapter}: {problem}")
     if adapter is not None:
-        check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
+        adapters.check_adapter(adapter, candidate, level=level, vocabulary=vocabulary)
     chosen = configuration or Configuration(adapter is not None, STRENGTHS[-1])
     if chosen.adapter and adapter is None:
         without = Configuration(False, chosen.strength).name
@@ -130,6 +128,6 @@ def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agen
             f" here; train one with `plannerft train --level {level} --candidate {candidate.name}`,"
             f" name one with --{level}-adapter, or give --configuration {without}"
         )
-    with_vocabulary = prompt_has_vocabulary(candidate, vocabulary, adapter)
+    with_vocabulary = adapters.prompt_has_vocabulary(candidate, vocabulary, adapter)
     quantization = candidate.stored_as(level, settings.quantization)
     return Agent(level, candidate, chosen, adapter, quantization, with_vocabulary)

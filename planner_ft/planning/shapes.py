@@ -13,15 +13,8 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from planner_ft.facts import geometry as g
 from planner_ft.facts import near
-from planner_ft.facts.geometry import (
-    Point,
-    lane_count,
-    lawnmower,
-    offset,
-    straight_line,
-    survey_square,
-)
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_bearings, read_positions
 from planner_ft.planning.essentials import VEHICLE, Added, Completed, Step, TaskEntry
@@ -29,6 +22,7 @@ from planner_ft.planning.limits import without_limits
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import canonical_value, is_number
 
+Point = g.Point
 SIZE, SPACING, RADIUS = ("width", "length"), "spacing", "radius"
 """The parameters of a grid: extent along x and y, and between lanes; that of a square."""
 COURSE = ("heading", "max_dist")
@@ -135,7 +129,7 @@ def face_of(task: TaskEntry, vocabulary: Vocabulary) -> Face | None:
     if not known or len(bearings) != 1 or len(places) != 1:
         return None
     side, at = bearings[0].value, (places[0].x, places[0].y)
-    first, last = (offset(at, side + turn, measures[0] / 2) for turn in (-90, 90))
+    first, last = (g.offset(at, side + turn, measures[0] / 2) for turn in (-90, 90))
     return Face((first, last), side, measures[1])
 
 
@@ -144,7 +138,7 @@ def pass_ends(task: TaskEntry, vocabulary: Vocabulary) -> tuple[Point, Point] | 
     face = face_of(task, vocabulary)
     if face is None:
         return None
-    first, last = (offset(end, face.side, face.distance) for end in face.ends)
+    first, last = (g.offset(end, face.side, face.distance) for end in face.ends)
     return first, last
 
 
@@ -164,13 +158,13 @@ def shape_points(task: TaskEntry, vocabulary: Vocabulary) -> list[Point]:
         return []
     at, points = (place[0], place[1]), list[Point]()
     if known.pattern == "line" and all(is_number(given.get(name)) for name in COURSE):
-        points = straight_line(at, given[COURSE[0]], given[COURSE[1]])
+        points = g.straight_line(at, given[COURSE[0]], given[COURSE[1]])
     elif known.pattern == "square" and is_number(given.get(RADIUS)) and given[RADIUS] > 0:
-        points = survey_square(at, given[RADIUS])
+        points = g.survey_square(at, given[RADIUS])
     elif known.pattern == "lawnmower" and all(is_number(given.get(n)) for n in (*SIZE, SPACING)):
         width, length, spacing = given[SIZE[0]], given[SIZE[1]], given[SPACING]
-        if min(width, length, spacing) > 0 and lane_count(width, spacing):
-            points = lawnmower(at, width, length, spacing)
+        if min(width, length, spacing) > 0 and g.lane_count(width, spacing):
+            points = g.lawnmower(at, width, length, spacing)
     return points if len(points) <= MOST_WAYPOINTS else []
 
 
@@ -213,7 +207,7 @@ def _is_plain(task: TaskEntry, vocabulary: Vocabulary) -> bool:
 
 def _line_problem(start: Point, heading: float, run: float, points: Sequence[Point]) -> str | None:
     """The line ends at the length of its course from its start."""
-    end = straight_line(start, heading, run)[-1]
+    end = g.straight_line(start, heading, run)[-1]
     if not points or min(math.dist(end, one) for one in points) <= max(SLACK, SHARE * run):
         return None
     return f"no waypoint is at [{end[0]:g}, {end[1]:g}], {run:g} m on {heading:g} from its start"

@@ -24,9 +24,8 @@ from planner_ft.vocabulary.schema import prompt_text
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerBase as Tokenizer
 
-INSTRUCTIONS: dict[str, dict[str, str]] = tomllib.loads(
-    read_text(Path(__file__).with_name("instructions.toml"))
-)
+_FILE = Path(__file__).with_name("instructions.toml")
+INSTRUCTIONS: dict[str, dict[str, str]] = tomllib.loads(read_text(_FILE))
 Record = dict[str, Any]
 """A sample: its prompt, the task and parameters of a task, the `expected` plan."""
 PLAIN_FORM = "{system}\n\n### Input\n{user}\n\n### Plan\n"
@@ -43,12 +42,9 @@ def system_text(level: Level, vocabulary: Vocabulary, *, with_vocabulary: bool) 
     instruction = INSTRUCTIONS[level]["instruction"].format(vehicle=vocabulary.title)
     if not with_vocabulary:
         return instruction
-    form = INSTRUCTIONS[level]["form"].format(
-        frame=vocabulary.frame,
-        home=list(vocabulary.home),
-        unresolved=list(vocabulary.unresolved),
-        vocabulary=prompt_text(level, vocabulary),
-    )
+    places = {"home": list(vocabulary.home), "unresolved": list(vocabulary.unresolved)}
+    values = {"frame": vocabulary.frame, "vocabulary": prompt_text(level, vocabulary), **places}
+    form = INSTRUCTIONS[level]["form"].format(**values)
     return f"{instruction}\n{form}"
 
 

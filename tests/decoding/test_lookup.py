@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.generate import generate
+from planner_ft.decoding.generate import PLAIN, generate
 from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
 from planner_ft.decoding.passes import Decoder, ModelDecoder
-from planner_ft.decoding.sequence import PLAIN, Method, Query
+from planner_ft.decoding.sequence import Method, Query
 
 
 def lookup(prompt: list[int], answer: list[int], **settings: Any) -> Lookup:

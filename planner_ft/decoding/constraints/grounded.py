@@ -21,16 +21,7 @@ from typing import Any
 
 from planner_ft.decoding.constraints import TOO_LONG, UNPAIRED, patterns
 from planner_ft.decoding.constraints import grammar as lark
-from planner_ft.decoding.constraints.grammar import (
-    Context,
-    Grammar,
-    Numbers,
-    Options,
-    Positions,
-    Symbol,
-    Values,
-    none_of_texts,
-)
+from planner_ft.decoding.constraints.grammar import Grammar, Options, Symbol, Values
 from planner_ft.decoding.constraints.patterns import literal, quoted, regex
 from planner_ft.facts import corrections, read_input
 from planner_ft.facts.words import WORDS
@@ -92,7 +83,9 @@ class Spans:
         if self._latest[0] is not grammar:
             self._latest = grammar, self._span(grammar)
         span = self._latest[1]
-        return grammar.terminal(f"{span}{none_of_texts(without)}") if span and without else span
+        return (
+            grammar.terminal(f"{span}{lark.none_of_texts(without)}") if span and without else span
+        )
 
     def _span(self, grammar: Grammar) -> str | None:
         names: dict[int, str] = {}
@@ -194,12 +187,12 @@ class GroundedValues(Values):
         too_long = [TOO_LONG] if self._spans.too_long else []
         self.notes = [*facts.unread, *([UNPAIRED] if facts.loose else []), *too_long]
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, context: Context) -> Options:
+    def parameter(self, grammar: Grammar, parameter: Parameter, context: lark.Context) -> Options:
         found = super().parameter(grammar, parameter, context)
         # Without evidence of its kind, a value that must be written is the model's.
         return found or (Values().parameter(grammar, parameter, context) * parameter.required)
 
-    def number(self, grammar: Grammar, parameter: Parameter, without: Numbers = ()) -> Symbol:
+    def number(self, grammar: Grammar, parameter: Parameter, without: lark.Numbers = ()) -> Symbol:
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().number(grammar, parameter, without)
@@ -212,7 +205,7 @@ class GroundedValues(Values):
             return super().has_number(parameter, value)
         return lark.written(value) in numbers
 
-    def position(self, grammar: Grammar, without: Positions = ()) -> Symbol:
+    def position(self, grammar: Grammar, without: lark.Positions = ()) -> Symbol:
         barred = {tuple(other) for other in without}
         if self._facts.unread or self._facts.loose:
             return super().position(grammar, without)

@@ -21,15 +21,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from planner_ft.decoding.constraints import grammar as lark
-from planner_ft.decoding.constraints.grammar import (
-    SKILL_OPENS,
-    TASK_OPENS,
-    Context,
-    Grammar,
-    Options,
-    Script,
-    key,
-)
+from planner_ft.decoding.constraints.grammar import Context, Grammar, Options, Script, key
 from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.waypoints import Path, Waypoints
 from planner_ft.vocabulary import Parameter, Skill, Task
@@ -42,14 +34,16 @@ from planner_ft.vocabulary.replay import START, Progress, target_parameter
 class MissionScript(Script):
     """A mission plan: the titles that may follow, then what follows the `chosen` title."""
 
-    opens: str = TASK_OPENS
+    opens: str = lark.TASK_OPENS
     most: int = lark.MOST_TASKS
     progress: Progress = START
 
     def opening(self) -> str:
         grammar = Grammar()
         closes = lark.mission_closes(grammar, self.values)
-        return grammar.text(f"{literal(lark.mission_opens())} ({literal(TASK_OPENS)} | {closes})")
+        return grammar.text(
+            f"{literal(lark.mission_opens())} ({literal(lark.TASK_OPENS)} | {closes})"
+        )
 
     @property
     def known(self) -> Sequence[Task]:
@@ -65,12 +59,12 @@ class MissionScript(Script):
             entry, _end = json.JSONDecoder().raw_decode(text)
             task = self.vocabulary.task[entry["title"]]
             progress = progress.after(task, entry["parameters"], self.vocabulary)
-        return replace(self, progress=progress, chosen=None, written=TASK_OPENS)
+        return replace(self, progress=progress, chosen=None, written=lark.TASK_OPENS)
 
     def behind(self, owners: Sequence[Task], *, names: bool) -> str:
         grammar = Grammar()
         entries = " | ".join(self.entry(grammar, task, named=not names) for task in owners)
-        more = f"{literal(',' + TASK_OPENS)} | " if self.progress.tasks + 1 < self.most else ""
+        more = f"{literal(',' + lark.TASK_OPENS)} | " if self.progress.tasks + 1 < self.most else ""
         return grammar.text(f"({entries}) ({more}{lark.mission_closes(grammar, self.values)})")
 
     # ------------------------------------------------------------ what the tasks so far leave
@@ -115,7 +109,7 @@ LONGEST_WORKING = 600
 """Characters of a working. The longest of 3,000 sampled tasks has 250."""
 SUMS = r"[xy0-9.+/=;\-]"
 """Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
-STEP_OPENS = "{" + key(STEP_KEYS[0]) + SKILL_OPENS
+STEP_OPENS = "{" + key(STEP_KEYS[0]) + lark.SKILL_OPENS
 FILTERS, PERCEPTIONS = (key(name) + "[" for name in STEP_KEYS[1:3])
 CLOSES = "]}"
 MOST_ALIKE = 4
@@ -137,7 +131,7 @@ class TaskScript(Script):
     written, `beside` the skills before the chosen one in its list.
     """
 
-    opens: str = SKILL_OPENS
+    opens: str = lark.SKILL_OPENS
     most: int = lark.MOST_STEPS
     waypoints: Waypoints | None = None
     whole: Waypoints | None = None
@@ -161,13 +155,15 @@ class TaskScript(Script):
             return replace(self, waypoints=shown, written=STEP_OPENS)
         steps = self.steps
         if self.role == "navigation":
-            entry, _end = json.JSONDecoder().raw_decode(text[len(STEP_OPENS) - len(SKILL_OPENS) :])
+            entry, _end = json.JSONDecoder().raw_decode(
+                text[len(STEP_OPENS) - len(lark.SKILL_OPENS) :]
+            )
             steps = (*steps, (self.vocabulary.skill[entry["name"]], entry["parameters"]))
         ahead = replace(self, steps=steps, chosen=None)
         if text.endswith(STEP_OPENS):
             return replace(ahead, role="navigation", beside=(), written=STEP_OPENS)
         role: Role = "perception" if PERCEPTIONS in text else "filter"
-        step = json.loads(text.removesuffix(SKILL_OPENS).removesuffix(",") + "]}")
+        step = json.loads(text.removesuffix(lark.SKILL_OPENS).removesuffix(",") + "]}")
         known, listed = self.vocabulary.skill, step[f"{role}_skills"]
         beside = tuple((known[one["name"]], one["parameters"]) for one in listed)
         return replace(ahead, role=role, beside=beside, written=text)
@@ -189,7 +185,7 @@ class TaskScript(Script):
         for skill in owners:
             if self.role == "navigation":
                 going = bool(skill.coordinates)
-                ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', (), going=going)}"
+                ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', (), going)}"
             else:
                 used = [other for other, _parameters in self.beside]
                 ends = self._list(grammar, self.role, (*used, skill))
@@ -197,13 +193,13 @@ class TaskScript(Script):
         return grammar.text(" | ".join(options))
 
     def _list(
-        self, grammar: Grammar, role: Role, used: Sequence[Skill], *, going: bool = False
+        self, grammar: Grammar, role: Role, used: Sequence[Skill], going: bool = False
     ) -> str:
         """The next skill of a role's list behind those used, or what follows the list. `going`: a
         waypoint is chosen in the same part.
         """
         if role == "filter":
-            perceptions = self._list(grammar, "perception", (), going=going)
+            perceptions = self._list(grammar, "perception", (), going)
             behind = f"{literal('],' + PERCEPTIONS)} {perceptions}"
         else:
             count = len(self.steps) + (self.role == "navigation")
@@ -219,7 +215,7 @@ class TaskScript(Script):
             or (skill.parameters and used.count(skill) < MOST_ALIKE)
             for skill in self.vocabulary.skills_in_role(role)
         )
-        return f"({literal(',' * bool(used) + SKILL_OPENS)} | {behind})" if more else behind
+        return f"({literal(',' * bool(used) + lark.SKILL_OPENS)} | {behind})" if more else behind
 
     # ------------------------------------------------------------ what the steps so far leave
 
