@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.candidates.loading import resolve_device
-from planner_ft.confidence.calibration import Calibration, judge_answer, read_calibration
+from planner_ft.confidence import calibration
 from planner_ft.confidence.parts import known
 from planner_ft.planning.result import AgentUse, Answer
 from planner_ft.planning.settings import Agent
@@ -47,7 +46,7 @@ class Agents:
         self.load_seconds: dict[Level, float] = dict.fromkeys(agents, 0.0)
         self._engine: Engine | None = None
         self._serves: tuple[Level, ...] = ()
-        self._calibrations: dict[Level, tuple[Calibration | None, str]] = {}
+        self._calibrations: dict[Level, tuple[calibration.Calibration | None, str]] = {}
 
     def load(self, level: Level) -> Engine:
         """The engine that answers for an agent, loaded if it is not. Raises PlannerError."""
@@ -80,20 +79,41 @@ class Agents:
         given = dict(engine.answers(queries, agent.configuration, batch_size=len(queries)))
         return [self._read(engine, query, given[at]) for at, query in enumerate(queries)]
 
-    def _read(self, engine: Engine, query: Query, generation: Generation) -> Answer:
-        level, prompt_tokens = query.level, len(query.prompt)
-        text = engine.text(generation)
-        answer = read_answer(level, text, generation, prompt_tokens, self.vocabulary)
-        if answer.plan is None:
-            return answer
-        choices = known(engine.choices(generation), text)
-        return replace(answer, judged=judge_answer(*self._calibration(level), text, choices))
+    def _read(self, engine: Engine, query: Query, made: Generation) -> Answer:
+        """The plan of an answer; None with the problems unless it is strictly valid."""
+        level, text, tokens = query.level, engine.text(made), len(made.ids)
+        parsed, judged = parse_output(text), calibration.NOT_JUDGED
+        problems = [parsed.problem or "no plan"]
+        if parsed.plan is not None:
+            problems = plan_problems(level, parsed.plan, self.vocabulary, strict=True)
+        if made.finish_reason == "length":
+            problems.insert(0, f"cut at the limit of {tokens} tokens")
+        notes = list(made.notes)
+        if made.cut:
+            notes.append(f"{CUT_NOTE} and was ended after {tokens}; something may be missing.")
+        if not problems:
+            choices = known(engine.choices(made), text)
+            judged = calibration.judge_answer(*self._calibration(level), text, choices)
+        return Answer(
+            text,
+            None if problems else parsed.plan,
+            (made.error,) if made.error else tuple(problems),
+            tuple(notes),
+            len(query.prompt),
+            tokens,
+            made.forward_passes,
+            made.seconds,
+            made.cut or made.finish_reason == "length",
+            judged=judged,
+        )
 
-    def _calibration(self, level: Level) -> tuple[Calibration | None, str]:
+    def _calibration(self, level: Level) -> tuple[calibration.Calibration | None, str]:
         """The calibration of an agent, or why there is none."""
         if level not in self._calibrations:
             agent, known = self.agents[level], self.vocabulary
-            self._calibrations[level] = read_calibration(agent.calibration, agent.held_for(known))
+            self._calibrations[level] = calibration.read_calibration(
+                agent.calibration, agent.held_for(known)
+            )
         return self._calibrations[level]
 
     def use(self, level: Level, answers: Sequence[Answer]) -> AgentUse:
@@ -127,29 +147,3 @@ class Agents:
             quantization=agent.quantization,
             threads=decoding_threads(agent.candidate, self.device.type),
         )
-
-
-def read_answer(
-    level: Level, text: str, generation: Generation, prompt_tokens: int, vocabulary: Vocabulary
-) -> Answer:
-    """The plan of a text; None with the problems unless it is strictly valid."""
-    parsed, tokens = parse_output(text), len(generation.ids)
-    problems = [parsed.problem or "no plan"]
-    if parsed.plan is not None:
-        problems = plan_problems(level, parsed.plan, vocabulary, strict=True)
-    if generation.finish_reason == "length":
-        problems.insert(0, f"cut at the limit of {tokens} tokens")
-    notes = list(generation.notes)
-    if generation.cut:
-        notes.append(f"{CUT_NOTE} and was ended after {tokens}; something may be missing.")
-    return Answer(
-        text,
-        None if problems else parsed.plan,
-        (generation.error,) if generation.error else tuple(problems),
-        tuple(notes),
-        prompt_tokens,
-        tokens,
-        generation.forward_passes,
-        generation.seconds,
-        generation.cut or generation.finish_reason == "length",
-    )

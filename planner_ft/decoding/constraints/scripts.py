@@ -40,10 +40,8 @@ class MissionScript(Script):
 
     def opening(self) -> str:
         grammar = Grammar()
-        closes = lark.mission_closes(grammar, self.values)
-        return grammar.text(
-            f"{literal(lark.mission_opens())} ({literal(lark.TASK_OPENS)} | {closes})"
-        )
+        opens, first = literal(lark.mission_opens()), literal(lark.TASK_OPENS)
+        return grammar.text(f"{opens} ({first} | {lark.mission_closes(grammar, self.values)})")
 
     @property
     def known(self) -> Sequence[Task]:
@@ -155,9 +153,8 @@ class TaskScript(Script):
             return replace(self, waypoints=shown, written=STEP_OPENS)
         steps = self.steps
         if self.role == "navigation":
-            entry, _end = json.JSONDecoder().raw_decode(
-                text[len(STEP_OPENS) - len(lark.SKILL_OPENS) :]
-            )
+            begins = len(STEP_OPENS) - len(lark.SKILL_OPENS)
+            entry, _end = json.JSONDecoder().raw_decode(text, begins)
             steps = (*steps, (self.vocabulary.skill[entry["name"]], entry["parameters"]))
         ahead = replace(self, steps=steps, chosen=None)
         if text.endswith(STEP_OPENS):
