@@ -70,6 +70,8 @@ class Engine:
         quantization: Quantization = "nf4",
         threads: int | None = None,
         lean: bool | None = None,
+        fast_forward: bool = True,
+        drafting: bool = True,
     ) -> Engine:
         """Load a candidate, with the adapters of the levels that are given one.
 
@@ -96,7 +98,8 @@ class Engine:
         ends, pad = tuple(ends_of_answers(tokenizer, named)), int(tokenizer.pad_token_id)
         most = MAX_NEW_TOKENS.items()
         limits = {level: Limits(ends, pad, max_new_tokens or longest) for level, longest in most}
-        return cls(model, forms or {}, tokenizer, vocabulary, limits, frozenset(given), threads)
+        how = limits, frozenset(given), threads, fast_forward, drafting
+        return cls(model, forms or {}, tokenizer, vocabulary, *how)
 
     def query(
         self, level: Level, record: dict[str, Any], *, with_vocabulary: bool = False
