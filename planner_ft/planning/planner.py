@@ -182,9 +182,7 @@ class Planner:
             for number, entry in enumerate(plan["tasks"], start=1)
         ]
         on_event(TasksKnown(tuple(planned)))
-        told = [
-            task.waits_for is None and not asked(vars(task), self.vocabulary) for task in planned
-        ]
+        told = [one.waits_for is None and not asked(vars(one), self.vocabulary) for one in planned]
         ready = [at for at, known in enumerate(told) if known and "task" in self.agents.agents]
         for done, at in enumerate(ready):
             self.agents.load("task")

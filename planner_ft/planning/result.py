@@ -140,14 +140,10 @@ def _doubt(
     else:
         parameter = vocabulary.task[task["title"]].by_name[name]
         known = _values(parameter, command, plan, vocabulary)
-    others = [
-        one
-        for begun, _probability in judged.others[path]
-        for one in known
-        if one != value and _begins(compact_json(one), begun)
-    ]
-    unique = {compact_json(one): one for one in others}
-    return Doubt(at, name, value, tuple(unique.values())[:MOST_OTHERS])
+    written = {compact_json(one): one for one in known if one != value}
+    begun = (start for start, _probability in judged.others[path])
+    others = dict.fromkeys(text for start in begun for text in written if _begins(text, start))
+    return Doubt(at, name, value, tuple(written[text] for text in others)[:MOST_OTHERS])
 
 
 def _begins(written: str, begun: str) -> bool:
