@@ -20,7 +20,7 @@ from planner_ft.vocabulary.plans import check_level
 def gen_data(o: Options) -> None:
     """Make the training data."""
     from planner_ft.data.generate import GenerationSettings, generate
-    from planner_ft.prompts.text import chat_messages
+    from planner_ft.prompts import chat_messages
 
     out = o.out or load_vocabulary(o.vocabulary).data
     settings = o.into(GenerationSettings, out=out)

@@ -12,7 +12,7 @@ from planner_ft.candidates import Candidate, loading
 from planner_ft.candidates.adapters import check_adapter
 from planner_ft.candidates.registry import VOCABULARY_KEY
 from planner_ft.data.curated import curated_folder, find_source
-from planner_ft.prompts.render import ends_of_answers, render_prompt, save_tokenizer
+from planner_ft.prompts import ends_of_answers, render_prompt, save_tokenizer
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, read_jsonl, write_json
 from planner_ft.vocabulary import Vocabulary, load_vocabulary

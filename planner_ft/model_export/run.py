@@ -22,7 +22,7 @@ from planner_ft.model_export.gguf_file import (
     token_table,
     write_gguf,
 )
-from planner_ft.prompts.text import prompt_messages
+from planner_ft.prompts import prompt_messages
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, sha256_file, write_json, write_text, writing

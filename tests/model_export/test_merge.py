@@ -19,7 +19,7 @@ from planner_ft.candidates.registry import VOCABULARY_KEY
 from planner_ft.cli import main
 from planner_ft.model_export import Exported, ExportSettings, export
 from planner_ft.model_export import check as check_module
-from planner_ft.prompts.render import TODAY, render_prompt, with_fixed_date
+from planner_ft.prompts import TODAY, render_prompt, with_fixed_date
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.schema import manifest_schema
