@@ -2,8 +2,6 @@
 similar command. A candidate that does not beat them has learnt no more than looking up would give.
 """
 
-from __future__ import annotations
-
 import copy
 import functools
 import itertools

@@ -2,8 +2,6 @@
 whether the system knows when it is wrong (calibration and selective prediction).
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import accumulate, groupby

@@ -1,7 +1,5 @@
 """Calibration: scored answers to validation data become the probability that a part is right."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Every metric of results.json (catalogue.toml): how it is summed up and shown."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -2,8 +2,6 @@
 one, everything with the baselines; their marks and sentences; and what enforcing rules changed.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal

@@ -1,7 +1,5 @@
 """Gate and suite files (TOML): what they may hold, and the runs that they describe."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from collections import Counter

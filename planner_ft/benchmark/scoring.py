@@ -1,7 +1,5 @@
 """Scoring one answer: every metric of a sample."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field

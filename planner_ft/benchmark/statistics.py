@@ -1,7 +1,5 @@
 """Intervals: Wilson for rates, seeded bootstrap for means; families are not independent samples."""
 
-from __future__ import annotations
-
 import functools
 import math
 from collections import Counter

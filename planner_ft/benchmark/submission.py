@@ -1,7 +1,5 @@
 """Scoring predictions that somebody else made, or that a run has written: no model is needed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

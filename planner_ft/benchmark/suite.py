@@ -2,8 +2,6 @@
 own; one that fails is named, the others go on. All answers are scored again for the overview.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 from collections.abc import Callable, Iterator, Sequence

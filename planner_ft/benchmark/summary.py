@@ -1,7 +1,5 @@
 """From the scores and timed queries of samples to figures with intervals."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Hashable, Iterable, Mapping, Sequence

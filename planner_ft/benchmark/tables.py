@@ -4,8 +4,6 @@ Figures stand in the long form, a row per candidate and configuration. Tables wi
 system (figures per name, substitutions ...) are written for each candidate.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Adapter folders: where they lie, the record that ties one to its base, the checks at loading."""
 
-from __future__ import annotations
-
 import functools
 from pathlib import Path
 from typing import Any

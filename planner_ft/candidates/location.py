@@ -1,7 +1,5 @@
 """Where a candidate's files lie here, complete and safe to load or not. Never downloads."""
 
-from __future__ import annotations
-
 import functools
 import json
 import os

@@ -1,7 +1,5 @@
 """The command line: `plannerft`. Commands parse, call one function of the library and print."""
 
-from __future__ import annotations
-
 import itertools
 import os
 import sys

@@ -1,7 +1,5 @@
 """`plannerft gen-data`, `validate`, `vocabulary` and `vehicle`."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`plannerft simulate` and `plannerft skill`."""
 
-from __future__ import annotations
-
 import inspect
 from pathlib import Path
 

@@ -4,8 +4,6 @@
 It lies as `confidence-LEVEL-CONFIGURATION.json` beside the adapter, or in the candidate's folder.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field

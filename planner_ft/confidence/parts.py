@@ -8,8 +8,6 @@ Log-probabilities are natural and over the model's whole vocabulary: under a con
 are those of the unconstrained model, so that what was forced upon it is not taken for certain.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 import math

@@ -1,7 +1,5 @@
 """The curated mission set: where it lies, reading and auditing it."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Iterator, Mapping
 from pathlib import Path

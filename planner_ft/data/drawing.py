@@ -1,7 +1,5 @@
 """One command in the making: its text and what it asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

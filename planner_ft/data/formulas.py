@@ -1,7 +1,5 @@
 """Places and sizes that a command leaves to arithmetic: "mid(P1,P2)" in the plan of a template."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Making the data sets: `generate` writes both levels with card, leakage report and manifest."""
 
-from __future__ import annotations
-
 import gc
 import itertools
 import time

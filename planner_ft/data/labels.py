@@ -3,8 +3,6 @@ their audit; what labels take from their input, and what they must not: values t
 values of the command that the plan has lost, numbers that its texts have made up.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections import Counter

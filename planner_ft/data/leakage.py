@@ -6,8 +6,6 @@ baseline answers a test prompt with the expected plan of the most similar traini
 over words and word pairs, cosine): a model has to be better than that.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence

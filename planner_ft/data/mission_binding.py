@@ -1,7 +1,5 @@
 """A command template for one vehicle: its tasks checked, and what each slot of the text fills."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 from collections.abc import Mapping

@@ -4,8 +4,6 @@ The rules (searches, transits, positions) read the vocabulary's fields, the text
 NAME.missions.toml; so both hold for any vehicle.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field

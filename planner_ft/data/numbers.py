@@ -1,7 +1,5 @@
 """The number speaker: numbers, lengths, times, angles, speeds and positions as people say them."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 import re

@@ -4,8 +4,6 @@ The card (card.md.j2) is a README.md in the Hugging Face form, so that `load_dat
 every split, with the figures that describe the set.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 from collections import Counter

@@ -5,8 +5,6 @@ things are to be done apart from the one in which they are said (Jia and Liang 2
 arXiv:1606.03622).
 """
 
-from __future__ import annotations
-
 import re
 from random import Random
 from typing import Any

@@ -5,8 +5,6 @@ home, unresolved) and so hold for any vehicle. A rule that depends on what the c
 checked only when the command is given; a tag of the record that names an exception is believed.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections.abc import Iterator

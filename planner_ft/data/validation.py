@@ -5,8 +5,6 @@ makes a dataset record, `output` a prediction, `tasks` or `skill_sequence` a pla
 reported, not the first alone.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -14,8 +14,6 @@ digit, {word} and {name} what no dictionary has, {tag} a file tag, {any_thing} a
 things.txt.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import tomllib

@@ -8,8 +8,6 @@ words of a command are missing it learns to do with the others ("check" or "valv
 2015, P15-1162).
 """
 
-from __future__ import annotations
-
 import functools
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """Configurations: with or without adapter, how strongly constrained; what ends an answer."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal, get_args
 

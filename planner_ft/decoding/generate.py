@@ -5,8 +5,6 @@ The loop is our own and not `model.generate`: drafts share a forward pass, seque
 leave the batch, and every answer is handed over the moment that it is complete.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

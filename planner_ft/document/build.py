@@ -4,8 +4,6 @@ reading and writing it.
 A place that was filled in stands as `located` beside the parameters of its tasks.
 """
 
-from __future__ import annotations
-
 import copy
 import hashlib
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Steps that keep clear: the way to a structure ends at its stand-off, and legs go round it."""
 
-from __future__ import annotations
-
 import heapq
 import itertools
 import math

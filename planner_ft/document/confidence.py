@@ -2,8 +2,6 @@
 probability behind each, and questions for the least sure choices.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any

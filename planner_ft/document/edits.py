@@ -2,8 +2,6 @@
 what they changed: the plan as it stands, against what the model proposed.
 """
 
-from __future__ import annotations
-
 import copy
 import inspect
 from collections.abc import Callable, Iterator, Sequence

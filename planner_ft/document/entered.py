@@ -1,7 +1,5 @@
 """Values and texts that an operator enters. All raise PlannerError for what a plan cannot have."""
 
-from __future__ import annotations
-
 import functools
 import json
 import re

@@ -1,7 +1,5 @@
 """Words that commands are checked by (english.toml, NAME.ontology.toml), and clauses."""
 
-from __future__ import annotations
-
 import functools
 import re
 from collections.abc import Iterator, Sequence

@@ -3,8 +3,6 @@
 They are the canonical sentences among the plan's constraints (planner_ft.vocabulary.limits).
 """
 
-from __future__ import annotations
-
 import copy
 import dataclasses
 from collections.abc import Iterable, Iterator

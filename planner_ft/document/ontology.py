@@ -3,8 +3,6 @@
 A missing element becomes a question to the operator and blocks nothing: most commands lack some.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from typing import Any

@@ -4,8 +4,6 @@ An operation changes the `Draft` that it is given, whose document is a copy. `ta
 the edit. What it returns is recorded with the edit. All raise PlannerError.
 """
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass

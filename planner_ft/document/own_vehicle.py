@@ -1,7 +1,5 @@
 """A vehicle of one's own: the files to start from, and what they lack for which command."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator

@@ -1,7 +1,5 @@
 """Where a value of a plan is from: command, located place, rule, vehicle, operator or model."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from planner_ft.document.entered import short

@@ -7,8 +7,6 @@ of an area or a line that is gone over are none, but for a point of the chart th
 what stands in the middle of the area ("the platform").
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence

@@ -4,8 +4,6 @@ The vocabulary's motion file gives the movements; a task without skills moves on
 say. The vehicle starts at home, bow north, and goes straight; wind and obstacles are not known.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

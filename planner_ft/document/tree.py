@@ -2,8 +2,6 @@
 per task, where it ends, what it rests on, and what no program has checked.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

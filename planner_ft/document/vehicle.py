@@ -1,7 +1,5 @@
 """The vehicle's profile: figures that estimates rest on, and the area that it may be in."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any

@@ -8,8 +8,6 @@ library's documentation (https://www.behaviortree.dev/docs/nodes-library/,
 https://www.behaviortree.dev/docs/learn-the-basics/xml_format) and its sources 4.10.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 from xml.etree import ElementTree

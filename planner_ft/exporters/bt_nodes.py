@@ -7,8 +7,6 @@ and for lists in ports, whose entries are set apart by ";"
 (https://www.behaviortree.dev/docs/tutorial-basics/tutorial_03_generic_ports).
 """
 
-from __future__ import annotations
-
 import functools
 import json
 import re

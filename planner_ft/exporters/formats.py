@@ -6,8 +6,6 @@ A format of a lab's own is an entry point of the group "planner_ft.formats" that
     ours = "our_package.ours:FORMAT"
 """
 
-from __future__ import annotations
-
 import functools
 import tomllib
 from collections.abc import Callable, Iterator, Mapping

@@ -4,8 +4,6 @@ A format enters into a `Ledger` what it carries, what it carries in another form
 out and why. Items that it never mentions are losses, too: nothing is dropped silently.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ are posted as SKILL_ variables for apps of the vehicle, and words stand in comme
 docs/exporters.md says how it is used; the sources of the syntax are named in moos_behaviours.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

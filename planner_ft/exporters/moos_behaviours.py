@@ -14,8 +14,6 @@ File"; lib_helmivp/Populator_BehaviorSet.cpp and lib_mbutil/FileBuffer.cpp). `$[
 flag is a macro of the helm, `$(NAME)` and `%(NAME)` are macros of nsplug.
 """
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -2,8 +2,6 @@
 file and the report of its losses.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ Frame: metres, x east, y north; headings in degrees clockwise from north. Waypoi
 two decimals, whole numbers as ints.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import math

@@ -1,7 +1,5 @@
 """What an answer can draw on: a command with its vehicle, or a task prompt with its parameters."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 import json

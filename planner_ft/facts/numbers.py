@@ -1,7 +1,5 @@
 """The numbers and turns of a text: "four minutes" is 240 s, "a metre and a half" 1.5 m."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 import re

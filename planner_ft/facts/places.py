@@ -6,8 +6,6 @@ hemisphere letters at numbers with decimals, or four decimals and more, and stan
 they have minutes.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import re

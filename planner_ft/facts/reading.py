@@ -1,7 +1,5 @@
 """The facts of a text, and where a value is from."""
 
-from __future__ import annotations
-
 import functools
 import math
 import re

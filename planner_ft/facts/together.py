@@ -1,7 +1,5 @@
 """What numbers of a text say together: "5 minutes 30", "200 by 120 feet", "six foot two"."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 import re

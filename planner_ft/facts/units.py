@@ -3,8 +3,6 @@
 Every unit has a base: metres, seconds, degC, Pa, kg ... "L/min" has the base "m3/s".
 """
 
-from __future__ import annotations
-
 import functools
 import re
 import tomllib

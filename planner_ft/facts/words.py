@@ -5,8 +5,6 @@ word lists of english.toml.
 them (scripts/freeze_words.py wrote it). A word that it lacks is a name, or misspelt.
 """
 
-from __future__ import annotations
-
 import bisect
 import functools
 import re

@@ -1,7 +1,5 @@
 """Folding a LoRA adapter into the weights, in full precision, and answers before and after it."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Adapters and data sets on the Hugging Face Hub: which files go there, their card, the upload."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """An export from beginning to end."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import dataclass

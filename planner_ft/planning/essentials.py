@@ -5,8 +5,6 @@ A document keeps both apart from the model's: `defaults` of a task are the value
 "parameter" where the skill is the model's and this value of it the vehicle's.
 """
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any

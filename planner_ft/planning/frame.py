@@ -5,8 +5,6 @@ which become the unresolved location in the plan; the place has the words of the
 name.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import math

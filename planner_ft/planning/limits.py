@@ -4,8 +4,6 @@ A limit holds for all tasks of the mission or for those that it names. The Task 
 for it: planning carries it into the steps as a filter (planner_ft.document.limits).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any

@@ -4,8 +4,6 @@ A task at such a place holds the vocabulary's unresolved location ([-99, -99]). 
 by the target of the search that is to find it, a berth by words of the task prompt.
 """
 
-from __future__ import annotations
-
 import copy
 import math
 import re

@@ -1,7 +1,5 @@
 """What planning gives: the mission plan, the skills of each task, what they cost, and questions."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

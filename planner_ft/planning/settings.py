@@ -1,7 +1,5 @@
 """Which candidate, adapter and configuration each agent works with."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -5,8 +5,6 @@ A face is on the stated side of its structure; the pass has its middle before it
 keeps its distance, so its ends follow from side, length, distance and the structure's place.
 """
 
-from __future__ import annotations
-
 import copy
 import itertools
 import math

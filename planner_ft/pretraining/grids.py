@@ -3,8 +3,6 @@ the other, kept apart on a GPU by a mask, so that every batch has the same shape
 compiled once, on a processor by the places of their parts.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import gc
 from collections.abc import Iterator, Sequence

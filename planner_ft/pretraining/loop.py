@@ -6,8 +6,6 @@ every batch: the result does not depend on their number, up to rounding, and a r
 with another number.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 import os

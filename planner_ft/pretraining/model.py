@@ -10,8 +10,6 @@ rounding, the forward pass sees what NF4 leaves of them, and the optimiser moves
 (the straight-through estimator of Bengio et al., arXiv:1308.3432).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager

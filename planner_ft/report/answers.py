@@ -1,7 +1,5 @@
 """Every sample with its answers and what differs, packed for the page: an index, and details."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

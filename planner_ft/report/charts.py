@@ -2,8 +2,6 @@
 read it stands in figures.toml.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence

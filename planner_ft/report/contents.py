@@ -1,7 +1,5 @@
 """What a report holds, test set by test set, before it is drawn."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -4,8 +4,6 @@ Colours can be told apart by colour-blind people, and every series has a mark an
 its own; letters stay text. The page's style sheet gives its drawings their colours, dark or light.
 """
 
-from __future__ import annotations
-
 import io
 import warnings
 from collections.abc import Callable, Iterator, Sequence

@@ -2,8 +2,6 @@
 approved, and what differs: the log shows later changes, not who decided.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A sketch of a plan's track for a terminal: braille dots, or points where there are none."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence

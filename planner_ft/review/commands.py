@@ -1,7 +1,5 @@
 """Edits as an operator types them: "2.radius=15", "move 3 1", "locate green buoy=120,-35"."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

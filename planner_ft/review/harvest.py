@@ -3,8 +3,6 @@
 A sample obeys the labelling rules and is no near duplicate of validation, test or challenge.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

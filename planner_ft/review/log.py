@@ -9,8 +9,6 @@ A line is the RFC 8785 form of its record. `hash` is the SHA-256 of that form wi
 of the last record, so that lines missing at the end are noticed, too.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import os

@@ -1,7 +1,5 @@
 """Review in a terminal: the plan is shown, then the reviewer approves, rejects, edits or quits."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any

@@ -6,8 +6,6 @@ A shape is a radius ("3"), a box of so many metres east and north ("16x4"), or a
 box ("L8x8", "T10x8"). A plan knows structures as points; an outline is part of the simulated world.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

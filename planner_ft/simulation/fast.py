@@ -2,8 +2,6 @@
 simulator of it: three degrees of freedom in numpy, all runs at once.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields

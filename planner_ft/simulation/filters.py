@@ -1,7 +1,5 @@
 """Filters: what limits the command of a movement."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -6,8 +6,6 @@ hull was measured; size, mass, speed, turn rate and drag are the vehicle's own. 
 the rigid body; all that the water does is applied by `qfrc_applied`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from planner_ft.simulation.fast import STEP, Floats, Vessel

@@ -5,8 +5,6 @@ chapter 12); the sideslip that wind and current cause is measured and taken off,
 integral of ILOS estimates.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -5,8 +5,6 @@ Frames by REP-103 and REP-105: map is the plan's local frame (x east, y north), 
 there is no odometry of its own, and base_link the vehicle.
 """
 
-from __future__ import annotations
-
 import contextlib
 import math
 from collections.abc import Iterator, Mapping, Sequence

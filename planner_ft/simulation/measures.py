@@ -1,7 +1,5 @@
 """What a run came to: errors, violations, energy and data, measured against the truth."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields

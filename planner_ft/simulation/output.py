@@ -2,8 +2,6 @@
 mission report of a run: what was observed where, from its records, as Markdown and HTML.
 """
 
-from __future__ import annotations
-
 import base64
 import io
 from collections import Counter

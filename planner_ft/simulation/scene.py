@@ -2,8 +2,6 @@
 what lies between commanded and actual motion: PID autopilot, and where the vehicle believes to be.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

@@ -5,8 +5,6 @@ to record. What a simulator has no model of (lenses, image quality, files) is re
 `"simulated": "no model"`.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -5,8 +5,6 @@ A skill of a package of one's own, such as a learnt policy, is an entry point of
 `implementation = "that entry point"`.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@ filters, end and failure modes stay what they are. `learnt = "..."` in [skill.NA
 of NAME.simulation.toml names the implementation.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace

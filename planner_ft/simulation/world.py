@@ -1,7 +1,5 @@
 """The simulated water: structures, objects, seabed, fences, current and wind, and what fails."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """`plannerft skill bench`: policies beside baselines and published figures, with intervals."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace

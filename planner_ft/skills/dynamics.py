@@ -6,8 +6,6 @@ A state (B, 8) is x, y in m, yaw in rad, surge, sway in m/s, yaw rate in rad/s o
 body's axes (REP-103), and the sums of the autopilot's two integrals. Without wind.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

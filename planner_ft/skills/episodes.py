@@ -3,8 +3,6 @@ baselines: a contour follower on the same rays, and the oracle's way. An actor i
 `Survey` and gives actions (B, 2).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

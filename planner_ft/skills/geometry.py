@@ -6,8 +6,6 @@ the study gives a shape's proportions and no size, its corners lie about the bas
 centre.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

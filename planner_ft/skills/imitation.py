@@ -4,8 +4,6 @@ The policy drives, the teacher says what it would have done there (DAgger: Ross,
 2011); a teacher with knowledge that its pupil lacks is "learning by cheating" (Chen et al., 2019).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Learnt policies as skills of a mission: GoToXY, StationKeep, and once round a structure."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """One time step of an option, its scan and its reward: functions of tensors that torch compiles."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

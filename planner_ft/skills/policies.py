@@ -3,8 +3,6 @@ a manifest, and while it is trained the checkpoints of a killed training, which 
 same losses.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 from collections.abc import Callable, Mapping

@@ -2,8 +2,6 @@
 of its `ClipPPOLoss` in one function of tensors, which torch compiles.
 """
 
-from __future__ import annotations
-
 import copy
 import math
 from dataclasses import dataclass

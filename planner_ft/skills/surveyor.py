@@ -1,7 +1,5 @@
 """The policies of SurveyTarget: the published network, and ours with conv over rays and memory."""
 
-from __future__ import annotations
-
 import math
 
 import torch

@@ -6,8 +6,6 @@ Differentiable Simulation, 2022, without its critic), which takes minutes on one
 policies were actor-critics; task, inputs and outputs are theirs.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path

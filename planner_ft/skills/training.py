@@ -1,7 +1,5 @@
 """`plannerft skill train`: from settings to a folder with policy, card, manifest and log."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from importlib import import_module

@@ -1,7 +1,5 @@
 """One process at a time in an output folder, and nothing left of those that were killed."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import re

@@ -1,7 +1,5 @@
 """Reading and writing files: atomic writes, JSON Lines with line numbers in errors, digests."""
 
-from __future__ import annotations
-
 import contextlib
 import csv
 import hashlib

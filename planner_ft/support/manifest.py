@@ -1,7 +1,5 @@
 """The run manifest: what a result depended on (schemas/manifest.schema.json)."""
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import importlib.metadata

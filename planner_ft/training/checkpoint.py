@@ -6,8 +6,6 @@ moments, torch and CUDA random states). It is renamed into place when it is comp
 before stays in case it is damaged. No pickle is involved.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -7,8 +7,6 @@ input are one multiplication, and each step has a backward pass of its own. Numb
 theirs by rounding alone: the multiplications are bfloat16 (or float32), residual sums float32.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The training loop: optimiser steps, validation, the best adapter, checkpoints, interruption."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 import signal

@@ -1,7 +1,5 @@
 """The model in training: adapter, loss on completion tokens, evaluation, levers on memory."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Iterator, Sequence
 from typing import Any

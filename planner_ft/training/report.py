@@ -1,7 +1,5 @@
 """Outputs of a run while it runs: terminal, log file, experiment trackers; the loss curve."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 from pathlib import Path

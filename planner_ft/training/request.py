@@ -1,7 +1,5 @@
 """A training run as requested: flags, recipe file, every name resolved, every setting checked."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """A training run from request to adapter folder."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 from collections.abc import Callable, Iterator, Sequence

@@ -3,8 +3,6 @@
 settings.toml has the flag text and bounds of every setting.
 """
 
-from __future__ import annotations
-
 import difflib
 import math
 import tomllib

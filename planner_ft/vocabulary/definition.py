@@ -2,8 +2,6 @@
 tasks do (NAME.motion.toml), what tasks bring about and need beyond their places (NAME.logic.toml).
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace

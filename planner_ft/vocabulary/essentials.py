@@ -1,7 +1,5 @@
 """What a vehicle adds to its tasks and asks for: NAME.essentials.toml, no part of the digest."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field

@@ -4,8 +4,6 @@ A limit holds for the whole mission, or for the tasks that its sentence ends wit
 no faster than 1 m/s during SubseaCableTrack."
 """
 
-from __future__ import annotations
-
 import functools
 import re
 import string

@@ -6,8 +6,6 @@ A mission plan is `{"tasks": [{"title", "parameters", "task_prompt"}], "assumpti
 fast enough for every sample; schema.py states the same rules as JSON Schema, and a test compares.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -5,8 +5,6 @@ the vocabulary as text, for the prompt of base models and as a page of the docum
 the form that grammar compilers take.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 from pathlib import Path

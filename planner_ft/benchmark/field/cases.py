@@ -8,8 +8,6 @@ A demand record is {"id", "prompt", "skills": [{"task": TITLE, "skills": [NAME, 
 demand is met when some step of a task of the title has the skill.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 import math

@@ -3,8 +3,6 @@
 Plans are written as they are made; all figures are made from what is written.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path

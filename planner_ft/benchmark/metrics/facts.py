@@ -15,8 +15,6 @@ Values are judged by `planner_ft.facts`, which the decoding strength `grounded` 
 well: the groundedness of `+grounded` configurations is 100 % by construction.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Is an answer right as a whole, and how is a wrong one wrong (the published failure kinds)?"""
 
-from __future__ import annotations
-
 import functools
 from collections import Counter, defaultdict
 from collections.abc import Mapping

@@ -4,8 +4,6 @@ the parameters of aligned ones: entries all right, F1 of keys and of key-value p
 Every predicted name counts, also outside the vocabulary; an answer that does not parse has none.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterable, Sequence
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Whether a predicted value is the stated one, by the type of its parameter."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -2,8 +2,6 @@
 candidate; what it answered before it failed half-way is kept.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 Fields = dict[str, Any]  # fields of a line; those that a source cannot know are None

@@ -1,7 +1,5 @@
 """Reading a chat completions server's replies: one JSON object, or server-sent events."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import time

@@ -6,8 +6,6 @@ A clause is a phrase bound to what it stands for, a skill or a movement of sever
 (`ing`, `with`, `passive`, `each`). `number` tells the slots of the clauses of one prompt apart.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import re

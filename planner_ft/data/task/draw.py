@@ -2,8 +2,6 @@
 the prompt has used, the template's values, the text put together, the steps worked out.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from random import Random

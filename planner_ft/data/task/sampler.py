@@ -15,8 +15,6 @@ in first, as they are before the Task Agent runs. A task whose geometry its para
 grid without a size) is left out: no number is made up.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import zlib

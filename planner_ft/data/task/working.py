@@ -12,8 +12,6 @@ length of the input, or half or a part of one, away. Those that no such sum give
 slanted line) have none.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence

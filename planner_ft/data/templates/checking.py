@@ -5,8 +5,6 @@
 prints what is wrong as FILE:LINE, and N samples of every template whose id begins with --only.
 """
 
-from __future__ import annotations
-
 import argparse
 import itertools
 from collections.abc import Iterator

@@ -5,8 +5,6 @@ or, by subject, in the files of the folders NAME.commands/, NAME.clauses/ and NA
 schemas/templates.schema.json is the form of a record.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 from collections.abc import Callable, Sequence

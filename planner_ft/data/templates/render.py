@@ -5,8 +5,6 @@ it alone and a text without its values (its skeleton) can be compared with other
 task prompts stay clean, some arrive as keyboards, telegrams, hurry and radio leave them.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path

@@ -10,8 +10,6 @@ dropped, a comma or a hyphen be a blank, a word in capitals be written small, an
 list knows be replaced by a known one that is near.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import re

@@ -5,8 +5,6 @@ and fractions without closing zeros. What a grammar allows is written in the sam
 one text.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 from decimal import Decimal

@@ -3,8 +3,6 @@
 A check is a function from a `Case` to the warnings that it finds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from planner_ft.document.track import Track

@@ -1,7 +1,5 @@
 """What the command asks for and no task does, and tasks and data that it does not want."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Places of the command that the plan has not, or has otherwise."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

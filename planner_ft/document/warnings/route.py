@@ -3,8 +3,6 @@ limits, stand-offs, boundaries, area, reach; and whether steps perform their tas
 area, a pass has its length, a panorama looks in all its directions.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import math

@@ -4,8 +4,6 @@ Facts of the text are compared with values of the plan; which words limit or rep
 (planner_ft/document/english.toml).
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import re

@@ -1,7 +1,5 @@
 """Values that nobody said."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """The agents behind the page, a thread that plans, and server-sent events for every open page."""
 
-from __future__ import annotations
-
 import asyncio
 import queue
 import threading
