@@ -137,7 +137,7 @@ def object_problems(
     known_keys = plan.keys() if isinstance(plan, dict) else ()
     found = next((known for known in LEVELS if list_key(known) in known_keys), level)
     if found is None:
-        return kind, None, [f"{key}holds neither tasks nor skill_sequence"]
+        return kind, None, [*problems, f"{key}holds neither tasks nor skill_sequence"]
     if level not in (None, found):
         problems.insert(0, f"a {level} plan is expected, this is a {found} plan")
     if kind == "record":

@@ -325,6 +325,8 @@ STEP: dict[str, Any] = {key: [] for key in STEP_KEYS[1:]}
         ({"output": goes()}, ["id is missing"]),
         ({"id": " ", "output": "Sure!"},
          ["id is no text", "output: not JSON (Expecting value at column 1)"]),
+        ({"id": " ", "output": "{}"},
+         ["id is no text", "output: holds neither tasks nor skill_sequence"]),
         # What a record is made of.
         (record(prompt=7), ["prompt is no text"]),
         (record(family=7), ["family is no text"]),

@@ -84,7 +84,7 @@ def once_for_all(case: Case) -> Iterator[Warning]:
     for clause in case.typed if often > 1 else ():
         for ask in case.spoken.asks if case.words["everywhere"].search(clause.text) else ():
             own = [task for task in case.tasks if task["title"] in ask.tasks]
-            if len(own) == 1 and any(clause.spans(ask.said)):
+            if len(own) == 1 and any(clause.spans(ask.named)):
                 said = quoted(clause.text.strip(" ,;"))
                 yield warning("repeat-lost", "once", own[0], about=said.casefold(), words=said)
 

@@ -225,7 +225,7 @@ def close_structures(case: Case) -> Iterator[Warning]:
     """One per structure that a task comes too close to and that no limit names."""
     limited = [limit["values"] for limit in case.limits]
     told = {one.get("object") for one in limited}
-    told |= {shown(one.get("position", (0, 0))) for one in limited}
+    told |= {shown(one["position"]) for one in limited if "position" in one}
     for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
         at, task = shown(structure.position), case.by_id[name]
         if structure.name not in told and at not in told:

@@ -48,6 +48,7 @@ def look(sectors: int) -> dict[str, Any]:
     return task("HorizontalPanorama", {"sectors": sectors}, turns)
 
 
+REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 RAMP = "Visit the pier at 9,9 and the ramp at 30,9. On second thoughts leave out the ramp."
@@ -127,6 +128,21 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (RAMP, [to(9, 9), to(30, 9)], (), "contradiction"),
         (RAMP, [to(9, 9)], (), None),
         ("Nothing north of y = 50 is allowed. Go to 9,80.", [to(9, 80)], (), "limit-lost"),
+        (
+            "Hold at 1,9 and 2,9 and report after each one.",
+            [*at(1), *at(2), REPORT],
+            (),
+            "repeat-lost",
+        ),
+        ("Hold at 1,9 and 2,9, write it up at each.", [*at(1), *at(2), REPORT], (), "repeat-lost"),
+        ("Hold at 1,9 and 2,9 and report.", [*at(1), *at(2), REPORT], (), None),
+        ("Hold at 1,9 and report after each one.", [*at(1), REPORT], (), None),
+        (
+            "Hold at 1,9 and 2,9 and report after each one.",
+            [*at(1), REPORT, *at(2), REPORT],
+            (),
+            None,
+        ),
         ("Go to 1,5 and be home by 15:00.", [to(1, 5), to(0, 0)], (), "limit-lost"),
         ("Go home by way of 9,9.", [to(9, 9), to(0, 0)], (), None),
         ("Go to 9,9, do not go near the pontoon at 70,20.", [to(9, 9)], (), "limit-lost"),
