@@ -69,12 +69,16 @@ class Ranks:
 
     @contextlib.contextmanager
     def one_voice(self) -> Iterator[None]:
-        """A mistake of the user that every process finds is told by the first alone."""
+        """A mistake of the user that every process finds is told by the first alone, which the
+        others outlive: a launcher ends all when one has ended.
+        """
         try:
             yield
         except PlannerError:
             if self.leads:
                 raise
+            with contextlib.suppress(RuntimeError):  # The first has gone.
+                self.wait()
             raise SystemExit(2) from None
 
     @property

@@ -253,12 +253,20 @@ def test_what_is_said_to_be_carried_is_in_the_items(vocabulary: Any) -> None:
             if path[-1] in ("x", "y"):
                 at = 0 if path[-1] == "x" else 1
                 assert any(abs(place[at] - value) < 0.01 for place in places), path
-            elif path[-1] in ("time", "duration", "yaw", "heading", "speed", "altitude"):
+            elif path[-1] in (
+                "time",
+                "duration",
+                "interval",
+                "yaw",
+                "heading",
+                "speed",
+                "altitude",
+            ):
                 wanted = (
                     value % 360
                     if path[-1] in ("yaw", "heading")
                     else math.ceil(value)
-                    if path[-1] in ("time", "duration")
+                    if path[-1] in ("time", "duration", "interval")
                     else value
                 )
                 assert any(abs(number - wanted) < 1e-9 for number in numbers) or wanted > 32767, (

@@ -18,12 +18,19 @@ import pytest
 import rfc8785
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from planner_ft.review.chain import Head
 
 from planner_ft.document import PlanDocument
 from planner_ft.review import log as review_log
 from planner_ft.review.approval import approve
-from planner_ft.review.log import append, check_log, existing_log, head_file, log_beside, read_log
+from planner_ft.review.log import (
+    Head,
+    append,
+    check_log,
+    existing_log,
+    head_file,
+    log_beside,
+    read_log,
+)
 from planner_ft.support.errors import PlannerError
 
 RECORDS = 6
