@@ -1,5 +1,7 @@
 """The web application: page, state, changes, events. The guard decides which requests come in."""
 
+from __future__ import annotations
+
 import asyncio
 import contextlib
 import inspect

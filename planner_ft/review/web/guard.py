@@ -5,6 +5,8 @@ made to point there (DNS rebinding). Host, Origin and Sec-Fetch-Site tell such r
 key keeps out the other users of the machine.
 """
 
+from __future__ import annotations
+
 import asyncio
 import contextlib
 import ipaddress

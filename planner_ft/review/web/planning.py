@@ -1,5 +1,7 @@
 """The agents behind the page, a thread that plans, and server-sent events for every open page."""
 
+from __future__ import annotations
+
 import asyncio
 import queue
 import threading

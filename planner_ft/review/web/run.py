@@ -1,5 +1,7 @@
 """Carrying the approved plan out while the page watches: one run at a time, with an abort."""
 
+from __future__ import annotations
+
 import contextlib
 import threading
 from collections.abc import Callable

@@ -1,5 +1,7 @@
 """A review in the browser: plan and log on the disk, the agents, and events for every page."""
 
+from __future__ import annotations
+
 import ipaddress
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
