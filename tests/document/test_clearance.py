@@ -96,6 +96,22 @@ def test_words_before_a_position_are_not_all_things(command: str) -> None:
     assert waypoints(document([transit(60, 0, "Go to [60, 0].")], command=command)) == [[60, 0]]
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "My net is at 60,0, very bad for the propeller.",
+        "A concrete pier stands at 60,0.",
+        "The casualty, a small tanker, is aground at 60,0.",
+        "The barges are anchored at [60, 0] and [60, 40].",
+        "There is a lit buoy in [60, 0].",
+    ],
+)
+def test_things_that_are_only_told_of_are_kept_clear_of(command: str) -> None:
+    plan = document([transit(120, 0, "Go to [120, 0].")], command=f"{command} Go to 120,0.")
+    assert nearest(plan, [60, 0]) >= 9.5
+    assert waypoints(plan)[-1] == [120, 0]
+
+
 def test_a_grid_leads_round_what_stands_in_its_middle_and_over_a_wreck() -> None:
     lanes = [go(80, -20), go(80, 20), go(100, 20), go(100, -20), go(120, -20), go(120, 20)]
     for name, close in (("gas platform", False), ("wreck of the barge", True)):

@@ -125,8 +125,25 @@ def performed(case: Case) -> Iterator[Warning]:
         names = [step["navigation_skill"]["name"] for step in steps]
         if not {*names} & {*definition.skills.get("navigation", ())}:
             yield warning("not-performed", "else", task)
-        elif problem := _problem(task, names, known):
+        elif problem := _problem(task, names, known) or _repeated(task, case):
             yield warning("not-performed", "shape", task, problem=problem)
+
+
+def _repeated(task: Entry, case: Case) -> str | None:
+    """Whether a grid goes over its lanes again, of which its prompt says nothing."""
+    if case.vocabulary.task[task["title"]].pattern != "lawnmower":
+        return None
+    points = _own_waypoints(task, case.vocabulary)
+    twice = len(points) - len(set(points))
+    said = case.words["again"].search(task["task_prompt"])
+    return None if said or not twice else f"it goes to {twice} of its waypoints again"
+
+
+def _own_waypoints(task: Entry, known: Vocabulary) -> list[Point]:
+    """The waypoints of a task, but for those that were added for clearance."""
+    clearance = {mark["step"] for mark in task.get("added", ()) if mark["kind"] == "clearance"}
+    goals = [goal_of(step, known) for step in task["skill_sequence"]]
+    return [(goal[0], goal[1]) for at, goal in enumerate(goals) if goal and at not in clearance]
 
 
 def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
@@ -136,10 +153,7 @@ def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
         turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
         few = is_number(count) and turns < count - 1
         return f"it turns {turns} times for {count:g} sectors" if few else None
-    clearance = {mark["step"] for mark in task.get("added", ()) if mark["kind"] == "clearance"}
-    goals = [goal_of(step, known) for step in task["skill_sequence"]]
-    points = [goal for at, goal in enumerate(goals) if goal and at not in clearance]
-    return shape_problem(task, points, known)
+    return shape_problem(task, _own_waypoints(task, known), known)
 
 
 # ---------------------------------------------------------------- limits and stand-offs

@@ -26,6 +26,15 @@ def test_a_grid_that_leaves_half_of_its_area_is_named() -> None:
     assert "span 20 m by 10 m, and the area is 20 m by 20 m" in text
 
 
+def test_a_grid_that_is_run_twice_unasked_is_named() -> None:
+    there_and_back = [*lanes([90, 100, 110], 40, 60), *lanes([110, 100, 90], 60, 40)]
+    (text,) = found("BathymetryGridSurvey", GRID, there_and_back)
+    assert text.endswith("it goes to 6 of its waypoints again.")
+    asked = task("BathymetryGridSurvey", GRID, there_and_back, "Survey it there and back.")
+    kinds = [one["kind"] for one in document([asked], command="Do it.")["warnings"]]
+    assert "not-performed" not in kinds
+
+
 @pytest.mark.parametrize("xs", [[85, 105], [85, 105, 115]])
 def test_lanes_need_not_divide_the_area(xs: list[float]) -> None:
     wide = {**GRID, "width": 30, "spacing": 20}

@@ -147,6 +147,18 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go home by way of 9,9.", [to(9, 9), to(0, 0)], (), None),
         ("Go to 9,9, do not go near the pontoon at 70,20.", [to(9, 9)], (), "limit-lost"),
         ("Go to 9,9 and don't go inside of the nets.", [to(9, 9)], (), "limit-lost"),
+        (
+            "Our boom lies from 4,0 to 4,9, you must not cross it. Go to 9,9.",
+            [to(9, 9)],
+            (),
+            "limit-lost value-lost",
+        ),
+        (
+            "My net drifts about. The boat must not touch it. Go to 9,9.",
+            [to(9, 9)],
+            (),
+            "limit-lost",
+        ),
         ("Go to 9,9, keep clear of the nets.", [to(9, 9)], ("Keep clear of the nets.",), None),
         ("Hold at 9,9, 50 s, don't come within 50 m.", [to(9, 9), hold(50)], (), "limit-lost"),
         ("Circle the mast at 60,60, radius 15.", [orbit(360)], (), "value-lost"),
@@ -185,7 +197,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
 def test_what_is_lost_is_told(
     command: str, tasks: list[dict[str, Any]], limits: tuple[str, ...], lost: str | None
 ) -> None:
-    assert kinds(command, *tasks, limits=limits) == ({lost} if lost else set())
+    assert kinds(command, *tasks, limits=limits) == set((lost or "").split())
 
 
 @pytest.mark.parametrize(
