@@ -24,9 +24,11 @@ for library in ("OMP", "MKL", "OPENBLAS"):
 # A shell starts background jobs with Ctrl-C ignored, and so would every process of a suite that
 # runs in one.
 signal.signal(signal.SIGINT, signal.default_int_handler)
-# An example may take any time: the first call loads a library, and machines are busy.
-hypothesis.settings.register_profile("without deadlines", deadline=None)
-hypothesis.settings.load_profile("without deadlines")
+# An example may take any time: the first call loads a library, and machines are busy. The same
+# commit is tried on the same examples; `--hypothesis-profile explore` draws new ones.
+hypothesis.settings.register_profile("explore", deadline=None)
+hypothesis.settings.register_profile("same examples", deadline=None, derandomize=True)
+hypothesis.settings.load_profile("same examples")
 
 
 @pytest.fixture(scope="session")

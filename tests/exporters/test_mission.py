@@ -255,6 +255,7 @@ def test_what_is_said_to_be_carried_is_in_the_items(vocabulary: Any) -> None:
                 assert any(abs(place[at] - value) < 0.01 for place in places), path
             elif path[-1] in (
                 "time",
+                "wait",
                 "duration",
                 "interval",
                 "yaw",
@@ -266,7 +267,7 @@ def test_what_is_said_to_be_carried_is_in_the_items(vocabulary: Any) -> None:
                     value % 360
                     if path[-1] in ("yaw", "heading")
                     else math.ceil(value)
-                    if path[-1] in ("time", "duration", "interval")
+                    if path[-1] in ("time", "wait", "duration", "interval")
                     else value
                 )
                 assert any(abs(number - wanted) < 1e-9 for number in numbers) or wanted > 32767, (
