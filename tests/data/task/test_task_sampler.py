@@ -145,7 +145,7 @@ def test_a_definition_without_phrases_falls_back_on_names(tmp_path):
 @functools.cache
 def composed():
     """Records that are no template's, drawn as they are asked for and kept."""
-    records = sample_tasks(USV, 5, 20_000, "train")
+    records = sample_tasks(USV, 5, 60_000, "train")
     return [], (one for one in records if not one["family"].startswith("template/"))
 
 
