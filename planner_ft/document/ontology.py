@@ -26,7 +26,7 @@ _PLACED = re.compile(
 )
 _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:is|are|was|stands?|lies?|lying|sits?|floats?|hangs?|rests?|right|last seen"
-    r"|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?(?:at|near|around|in|on|by)\s*"
+    r"|located|anchored|moored)\s+(?:\w+\s+){0,2}?(?:in the \w+\s+)?)?(?:at|near|around|in|on|by)\s*"
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""
@@ -89,18 +89,19 @@ def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]
 
 def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position]]:
     """(words, position) of things beside certain positions: no waypoints and other places. "The
-    cages at" names all positions of the row behind it.
+    cages at" names all positions of the row behind it. What stands in the water needs no article.
     """
     spoken = language(vocabulary)
-    named = sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])
+    bare = [match.span() for match in spoken.words["standing"].finditer(text)]
+    named = [*sorted(bare), *sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])]
+    things = [(start, end) for start, end in named if is_thing(text[start:end], vocabulary)]
     several = dict[int, str]()
     for row in rows_of(text, written_positions(text)):
-        words = _words_before(text, row[0].start, named)
+        words = _words_before(text, row[0].start, things)
         several |= {place.start: words for place in row[1:] if words.endswith("s")}
     for place in read_positions(text):
-        words = _words_before(text, place.start, named) if place.certain else ""
-        words = words or several.pop(place.start, "")
-        if words and is_thing(words, vocabulary):
+        words = _words_before(text, place.start, things) if place.certain else ""
+        if words := words or several.pop(place.start, ""):
             yield words, place
 
 

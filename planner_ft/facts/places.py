@@ -2,8 +2,8 @@
 
 Geographic coordinates are a kind of their own. They are told from local positions ("40 east, 25
 north", in metres) by a degree sign with minutes or a hemisphere, the words latitude and longitude,
-hemisphere letters at numbers with decimals, or four decimals and more, and stand in pairs unless
-they have minutes.
+hemisphere letters at two numbers with decimals (at one: two decimals), or four decimals and more,
+and stand in pairs unless they have minutes.
 """
 
 import functools
@@ -30,14 +30,15 @@ _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
     r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?"
-    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d\.\d+)(?=[\s,]?[NSEW]\b)"
+    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|-(?P<sixtieths>[0-5]\d(?:\.\d+)?)))"
+    r"(?=[\s,]?[NSEW]\b)"
     r"|(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d))"
     r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
     r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"
-    r"(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?"
+    r"(?(lead)|(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?)"
 )
 """`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N) or as they are
-spoken of without signs: "48 07.038 N", "48-07.0N".
+spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N".
 """
 _BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 _WRITTEN_PAIR = re.compile(
@@ -125,6 +126,11 @@ def read_geographic(text: str) -> tuple[Geographic, ...]:
     """The geographic positions of a text."""
     known = list(_COORDINATE.finditer(text))
     sure = [match for match in known if _is_degrees(match)]
+    for one, two in itertools.pairwise(known):
+        # "54.3 N, 10.1 E": metres have no such letters at decimals.
+        both = all(_has_letter(match) and "." in (match["degrees"] or "") for match in (one, two))
+        if both and _degrees(one)[1] != _degrees(two)[1]:
+            sure += [match for match in (one, two) if match not in sure]
     # "48.123N 7.5E": what stands beside degrees with a hemisphere of its own is degrees.
     pairs = [(one, two) for one, two in itertools.pairwise(known) if {one, two} & {*sure}]
     beside = {
@@ -184,8 +190,9 @@ def _degrees(match: re.Match[str]) -> tuple[float, str]:
     letter = (match["lead"] or match["hemisphere"] or "").strip(" ,").lower()
     said = (match["word"] or letter).strip().lower()
     axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
-    degrees, minutes = match["degrees"] or match["whole"], match["minutes"] or match["packed"]
-    value = float(degrees) + float(minutes or 0) / 60 + float(match["seconds"] or 0) / 3600
+    degrees, packed = match["degrees"] or match["whole"], (match["packed"] or "0").partition("-")[0]
+    minutes, seconds = match["minutes"] or packed, match["seconds"] or match["sixtieths"] or 0
+    value = float(degrees) + float(minutes) / 60 + float(seconds) / 3600
     return -value if match["sign"] in _MINUS or letter[:1] in ("s", "w") else value, axis
 
 

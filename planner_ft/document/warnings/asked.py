@@ -68,7 +68,7 @@ def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator
             is_noun = any(map(case.words["determiner"].fullmatch, before))
             match = None if is_noun else match
         # Data to be sent is named by how it came about, which may be long ago: "send the panorama".
-        missing = not ask.tasks & planned and (ask.sends or not sends)
+        missing = not _sent_by(ask, clause, case) & planned and (ask.sends or not sends)
         if match and missing and clause.wants(clause.start + match.start()):
             yield match[0], match.start()
     impossible = case.words["impossible"].match(clause.text.lstrip())
@@ -155,6 +155,15 @@ def without_words(case: Case) -> Iterator[Warning]:
     for ask in (one for one in case.spoken.asks if one.sure and not one.sure.search(told)):
         for task in (one for one in case.tasks if one["title"] in ask.tasks):
             yield warning("value-not-said", "asked", task, about="asked")
+
+
+def _sent_by(ask: Ask, clause: Clause, case: Case) -> frozenset[str]:
+    """The tasks that do what is asked for. A report does not send data: "upload the stills"."""
+    others = [one for one in case.spoken.asks if one.sends and one.tasks < ask.tasks]
+    if not ask.sends or not any(clause.spans(case.spoken.sensors)):
+        return ask.tasks
+    unnamed = (one.tasks for one in others if not one.named.search(clause.text))
+    return ask.tasks.difference(*unnamed)
 
 
 def _sends(clause: Clause, case: Case) -> bool:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from planner_ft.document.language import Clause
 from planner_ft.document.structures import MOVING, close_legs, way_off
 from planner_ft.document.track import Leg, Point, place_of, shown, stated
 from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
@@ -43,7 +44,9 @@ def open_places(case: Case) -> Iterator[Warning]:
     for place in case.document.get("open_places", ()):
         name, first = place["name"], case.tasks[place["tasks"][0] - 1]
         tasks = f"task{'s' * (len(place['tasks']) > 1)} {', '.join(map(str, place['tasks']))}"
-        sentence = "geographic" if read_geographic(name) else "named"
+        there = read_geographic(name)
+        real = all(abs(one.latitude or 0) <= 90 and abs(one.longitude or 0) <= 180 for one in there)
+        sentence = "named" if not there else "geographic" if real else "nowhere"
         made = warning("unresolved-location", sentence, about=name, name=name, tasks=tasks)
         parameter = case.vocabulary.task[first["title"]].position_parameter
         yield {**made, "task": first["id"], "parameter": parameter}
@@ -67,9 +70,15 @@ def order(case: Case) -> Iterator[Warning]:
 
 def missing_return(case: Case) -> Iterator[Warning]:
     """A command that speaks of coming home, and a plan that ends elsewhere."""
-    last, home = _last_away(case), case.words["home"]
-    if last is not None and any(any(clause.spans(home)) for clause in case.typed):
+    last = _last_away(case)
+    if last is not None and any(_asks_for_home(clause, case) for clause in case.typed):
         yield warning("missing-return", last=named(last))
+
+
+def _asks_for_home(clause: Clause, case: Case) -> bool:
+    """Whether a clause speaks of coming home, and not of a way that begins there."""
+    away = [clause.start + at.end() for at in case.words["from_home"].finditer(clause.text)]
+    return any(end not in away for _start, end in clause.spans(case.words["home"]))
 
 
 def endurance(case: Case) -> Iterator[Warning]:
