@@ -55,6 +55,25 @@ def uneven_rows(case: Case) -> Iterator[Warning]:
             yield warning("value-lost", "uneven", about=where, titles=what, place=where)
 
 
+def gone_to_again(case: Case) -> Iterator[Warning]:
+    """A way to a place that the plan has been at and where it does nothing more, and that the
+    command says once and without words for coming there again.
+    """
+    if any(case.words[name].search(case.command) for name in ("again", "repeats", "everywhere")):
+        return
+    known, been = case.vocabulary, list[Point]()
+    behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["self"]
+    for task, arrival in zip(case.tasks, behind, strict=True):
+        at = place_of(task, known)
+        if at is None or at in (known.home, known.unresolved):
+            continue
+        said = sum(same_place(place, at) for place in case.positions)
+        again = at in been and at != been[-1] and said == 1
+        if again and task["title"] == known.transit and arrival == "self":
+            yield warning("value-not-said", "asked", task, about="asked")
+        been.append(at)
+
+
 def _done_at(case: Case) -> dict[Point, set[str]]:
     """The titles of the tasks at each place, but for the ways to it."""
     done, at = dict[Point, set[str]](), None

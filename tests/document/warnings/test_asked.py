@@ -26,6 +26,7 @@ def hold(seconds: float, prompt: str = "Hold.") -> dict[str, Any]:
 
 TURNS = [step("RotateToHeading", {"heading": heading}) for heading in (0, 180)]
 PANORAMA = task("HorizontalPanorama", {}, TURNS)
+REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep")])
 SEARCH = task("SearchAndDetect", {"target_description": "buoy"}, [step("StationKeep")], "Search.")
 THERE, BACK = to(30, 40), to(0, 0)
 
@@ -123,6 +124,22 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ("Go to [30, 40], hold it 40 s.", [THERE, hold(40, "Hold 40 s.")], []),
         ("Go to [30, 40], hold it 40 s.", [THERE, hold(40, "Hold at 7 m.")], []),
         ("Go to [30, 40].", [to(30, 40, "Go to [30, 41].")], ["contradiction:t1:target_position"]),
+        (
+            "Go to [30, 40], next [5, 6], last of all home.",
+            [THERE, to(5, 6), THERE, BACK],
+            ["value-not-said:t3:asked"],
+        ),
+        ("Go to [30, 40], then back.", [THERE, BACK], []),
+        ("Go to [30, 40], next [5, 6], then again.", [THERE, to(5, 6), THERE], []),
+        ("Go to [30, 40], [5, 6], [30, 40].", [THERE, to(5, 6), THERE], []),
+        ("Go to [30, 40], [5, 6], hold 40 s.", [THERE, to(5, 6), THERE, hold(40)], []),
+        (
+            "Go to [30, 40]. Summarise. Upload the thermal data.",
+            [THERE, REPORT],
+            ["not-planned:upload"],
+        ),
+        ("Go to [30, 40]. Summarise. Upload it.", [THERE, REPORT], []),
+        ("Go to [30, 40]. Upload a report on the thermal data.", [THERE, REPORT], []),
         ("Go to [30, 40], take pictures.", [THERE], ["data-not-planned:pictures"]),
         ("Go to [30, 40], no pictures.", [THERE], []),
         ("Go to [30, 40], no pictures, take pictures.", [THERE], ["data-not-planned:pictures"]),

@@ -56,6 +56,18 @@ def test_a_plan_comes_home_or_docks(tasks: list[dict[str, Any]], *, missing: boo
 
 
 @pytest.mark.parametrize(
+    ("command", "asked"),
+    [
+        ("From home you go to 9,9.", False),
+        ("Go to 9,9, within 600 m of home.", False),
+        ("From home you go to 9,9, then home.", True),
+    ],
+)
+def test_home_as_a_beginning_is_no_return(command: str, *, asked: bool) -> None:
+    assert bool(told(command, to(9, 9), kind="missing-return")) is asked
+
+
+@pytest.mark.parametrize(
     ("tasks", "ids"),
     [
         ([to(9, 9), hold(60, "Hold at [9, 9].")], []),
