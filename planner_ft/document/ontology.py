@@ -126,7 +126,8 @@ def stands(words: str, vocabulary: Vocabulary) -> bool:
 
 
 def _ends_with(kind: str, words: str, vocabulary: Vocabulary) -> bool:
-    head = re.split(r"\s+(?:of|with)\b", words.strip(), maxsplit=1)[0]
+    # "Buoy 7" is a buoy.
+    head = re.split(r"\s+(?:of\b|with\b|\d+$)", words.strip(), maxsplit=1)[0]
     found = language(vocabulary).words[kind].finditer(head)
     return any(match.end() == len(head) for match in found)
 

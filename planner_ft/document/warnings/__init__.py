@@ -62,7 +62,7 @@ CHECKS: tuple[Check, ...] = (
     *(places.positions, said.limits, said.repeats, places.laid_otherwise),
     *(places.there_and_not, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),
-    places.gone_to_again,
+    places.done_again,
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

@@ -55,23 +55,23 @@ def uneven_rows(case: Case) -> Iterator[Warning]:
             yield warning("value-lost", "uneven", about=where, titles=what, place=where)
 
 
-def gone_to_again(case: Case) -> Iterator[Warning]:
-    """A way to a place that the plan has been at and where it does nothing more, and that the
-    command says once and without words for coming there again.
+def done_again(case: Case) -> Iterator[Warning]:
+    """What is done again at a place that the command says once, without words for doing it again. A
+    way leads there again where nothing is done at its end.
     """
-    if any(case.words[name].search(case.command) for name in ("again", "repeats", "everywhere")):
+    if any(case.words[name].search(case.command) for name in ("again", "repeats")):
         return
-    known, been = case.vocabulary, list[Point]()
+    known, done = case.vocabulary, list[tuple[str, Entry]]()
     behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["self"]
     for task, arrival in zip(case.tasks, behind, strict=True):
-        at = place_of(task, known)
-        if at is None or at in (known.home, known.unresolved):
+        at, one = place_of(task, known), (task["title"], task["parameters"])
+        if at is None or at == known.home:
             continue
+        ends = one != done[-1] and arrival == "self" if done else False
         said = sum(same_place(place, at) for place in case.positions)
-        again = at in been and at != been[-1] and said == 1
-        if again and task["title"] == known.transit and arrival == "self":
+        if said == 1 and one in done and (task["title"] != known.transit or ends):
             yield warning("value-not-said", "asked", task, about="asked")
-        been.append(at)
+        done.append(one)
 
 
 def _done_at(case: Case) -> dict[Point, set[str]]:

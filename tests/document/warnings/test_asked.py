@@ -26,6 +26,7 @@ def hold(seconds: float, prompt: str = "Hold.") -> dict[str, Any]:
 
 TURNS = [step("RotateToHeading", {"heading": heading}) for heading in (0, 180)]
 PANORAMA = task("HorizontalPanorama", {}, TURNS)
+SURVEY = task("SurveyTarget", {"target_position": [30, 40]}, [step("StationKeep")])
 REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep")])
 SEARCH = task("SearchAndDetect", {"target_description": "buoy"}, [step("StationKeep")], "Search.")
 THERE, BACK = to(30, 40), to(0, 0)
@@ -131,6 +132,8 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ),
         ("Go to [30, 40], then back.", [THERE, BACK], []),
         ("Go to [30, 40], next [5, 6], then again.", [THERE, to(5, 6), THERE], []),
+        ("Inspect [30, 40].", [SURVEY, SURVEY], ["value-not-said:t2:asked"]),
+        ("Inspect [30, 40] twice.", [SURVEY, SURVEY], []),
         ("Go to [30, 40], [5, 6], [30, 40].", [THERE, to(5, 6), THERE], []),
         ("Go to [30, 40], [5, 6], hold 40 s.", [THERE, to(5, 6), THERE, hold(40)], []),
         (
