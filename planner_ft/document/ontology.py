@@ -25,8 +25,9 @@ _PLACED = re.compile(
     r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
 )
 _BESIDE = re.compile(
-    r"\s*(?:,?\s*(?:(?:is|are|was|stands?|lies?|lying|sits?|floats?|hangs?|rests?|right|last seen"
-    r"|located|anchored|moored)\s+(?:\w+\s+){0,2}?(?:in the \w+\s+)?)?(?:at|near|around|in|on|by)\s*"
+    r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|lies?|lying|sits?|floats?|hangs?|rests?"
+    r"|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?(?:in the \w+\s+)?)?"
+    r"(?:at|near|around|in|on|by)\s*"
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""

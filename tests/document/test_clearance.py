@@ -106,6 +106,7 @@ def test_words_before_a_position_are_not_all_things(command: str) -> None:
         "There is a lit buoy in [60, 0].",
         "A lighthouse stands in the water at [60, 0].",
         "Mind: red buoy at 60,0.",
+        "Watch out for the barge which lies at 60,0.",
     ],
 )
 def test_things_that_are_only_told_of_are_kept_clear_of(command: str) -> None:

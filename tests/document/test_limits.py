@@ -260,6 +260,20 @@ def test_the_origin_of_a_plan_locates_its_geographic_places() -> None:
         apply(located, edit, USV)
 
 
+@pytest.mark.parametrize(
+    ("words", "kinds"),
+    [
+        ("but keep at least 50 m from the boat at 54.3217 N, 10.1412 E", ["limit-lost"]),
+        ("then to 54.3217 N, 10.1412 E", ["value-lost"]),
+        ("then to 54.3217 N, 10.1412 E, no, scratch that", []),
+    ],
+)
+def test_geographic_places_that_the_plan_has_nowhere(words: str, kinds: list[str]) -> None:
+    go = task("Transit", {"target_position": [80, 40]}, [], "Go to [80, 40].")
+    found = document([go], command=f"Go to 80, 40, {words}.")["warnings"]
+    assert [one["kind"] for one in found if "54.3217" in one["text"]] == kinds
+
+
 def moving() -> dict[str, Any]:
     """Steps that move but for the second."""
     steps = [

@@ -58,7 +58,7 @@ CHECKS: tuple[Check, ...] = (
     asked.once_for_all,
     route.performed,
     *(said.measures, said.corrected, said.bare_numbers, said.clock_times),
-    *(places.rows, places.uneven_rows, places.unvisited),
+    *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
     *(places.positions, said.limits, said.repeats, places.laid_otherwise),
     *(places.there_and_not, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),

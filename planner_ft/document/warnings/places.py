@@ -8,7 +8,7 @@ from planner_ft.document.ontology import named_places
 from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
-from planner_ft.facts.places import lone_coordinates, read_bearings
+from planner_ft.facts.places import lone_coordinates, read_bearings, read_geographic
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
@@ -24,6 +24,21 @@ def positions(case: Case) -> Iterator[Warning]:
     for start, end in lone_coordinates(case.text):
         words = case.text[start:end].strip()
         if words.casefold() not in case.plan.texts:
+            yield lost(words)
+
+
+def geographic(case: Case) -> Iterator[Warning]:
+    """Geographic positions that are no metres yet and at which the plan has no open place."""
+    names = [place["name"] for place in case.document.get("open_places", ())]
+    text = case.source.facts.text
+    for place in read_geographic(text):
+        words = text[place.start : place.end]
+        clause = case.clause_at(place.start)
+        if clause is None or clause.corrected or any(words in name for name in names):
+            continue
+        if any(case.words[name].search(clause.text) for name in ("limit", "away")):
+            yield warning("limit-lost", "geographic", about=words.casefold(), words=words)
+        else:
             yield lost(words)
 
 
