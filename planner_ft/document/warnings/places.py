@@ -82,7 +82,7 @@ def done_again(case: Case) -> Iterator[Warning]:
         at, one = place_of(task, known), (task["title"], task["parameters"])
         if at is None or at == known.home:
             continue
-        ends = one != done[-1] and arrival == "self" if done else False
+        ends = one not in done[-1:] and arrival == "self"
         said = sum(same_place(place, at) for place in case.positions)
         if said == 1 and one in done and (task["title"] != known.transit or ends):
             yield warning("value-not-said", "asked", task, about="asked")
