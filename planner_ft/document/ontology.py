@@ -26,8 +26,8 @@ _PLACED = re.compile(
 )
 _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|lies?|lying|sits?|floats?|hangs?|rests?"
-    r"|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?(?:in the \w+\s+)?)?"
-    r"(?:at|near|around|in|on|by)\s*"
+    r"|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
+    r"(?:in the \w+\s+)?(?:,?\s*namely\s+)?(?:at|near|around|in|on|by)\s*"
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""
@@ -95,7 +95,12 @@ def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Posit
     spoken = language(vocabulary)
     bare = [match.span() for match in spoken.words["standing"].finditer(text)]
     named = [*sorted(bare), *sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])]
-    things = [(start, end) for start, end in named if is_thing(text[start:end], vocabulary)]
+    own = {match.end() for match in spoken.words["own"].finditer(text)}
+    things = [
+        (start, end)
+        for start, end in named
+        if end not in own and is_thing(text[start:end], vocabulary)
+    ]
     several = dict[int, str]()
     for row in rows_of(text, written_positions(text)):
         words = _words_before(text, row[0].start, things)

@@ -31,11 +31,11 @@ _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
     r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?"
     r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|-(?P<sixtieths>[0-5]\d(?:\.\d+)?)))"
-    r"(?=[\s,]?[NSEW]\b)"
-    r"|(?P<degrees>\d{1,3}(?:\.\d+)?)(?![\d.]*\d))"
-    r"(?P<ring>\s?°\s?(?:(?P<minutes>\d{1,2}(?:\.\d+)?)\s?['′’]\s?"
-    r"(?:(?P<seconds>\d{1,2}(?:\.\d+)?)\s?(?:[\"″”]|'')\s?)?)?)?"
-    r"(?(lead)|(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|north\b|south\b|east\b|west\b))?)"
+    r"(?(lead)|(?=[\s,]?[NSEW]\b))"
+    r"|(?P<degrees>\d{1,3}(?:\.\d+|,\d{2,}(?=\s?[°º˚]))?)(?![\d.]*\d))"
+    r"(?P<ring>\s?[°º˚]\s?(?:(?P<minutes>\d{1,2}(?:[.,]\d+)?)\s?['′’]\s?"
+    r"(?:(?P<seconds>\d{1,2}(?:[.,]\d+)?)\s?(?:[\"″”]|''|’’)\s?)?)?)?"
+    r"(?(lead)|(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|(?i:north|south|east|west)\b))?)"
 )
 """`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N) or as they are
 spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N".
@@ -169,7 +169,7 @@ def lone_coordinates(text: str) -> list[tuple[int, int]]:
 
 
 def _is_degrees(match: re.Match[str]) -> bool:
-    decimals = len((match["degrees"] or "").partition(".")[2])
+    decimals = len((match["degrees"] or "").replace(",", ".").partition(".")[2])
     return bool(
         match["word"]
         or match["packed"]
@@ -192,7 +192,8 @@ def _degrees(match: re.Match[str]) -> tuple[float, str]:
     axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
     degrees, packed = match["degrees"] or match["whole"], (match["packed"] or "0").partition("-")[0]
     minutes, seconds = match["minutes"] or packed, match["seconds"] or match["sixtieths"] or 0
-    value = float(degrees) + float(minutes) / 60 + float(seconds) / 3600
+    parts = (str(part).replace(",", ".") for part in (degrees, minutes, seconds))
+    value = sum(float(part) / 60**at for at, part in enumerate(parts))
     return -value if match["sign"] in _MINUS or letter[:1] in ("s", "w") else value, axis
 
 

@@ -90,6 +90,7 @@ def test_a_thing_of_the_command_is_one_where_the_plan_goes_to_it_without_its_nam
         "Actually the other way round, [60, 0] first.",
         "Take a geotagged snapshot at 60,0.",
         "Do the loop [60, 0], [60, 40] twice.",
+        "Station the boat at [60, 0].",
     ],
 )
 def test_words_before_a_position_are_not_all_things(command: str) -> None:
@@ -106,6 +107,8 @@ def test_words_before_a_position_are_not_all_things(command: str) -> None:
         "There is a lit buoy in [60, 0].",
         "A lighthouse stands in the water at [60, 0].",
         "Mind: red buoy at 60,0.",
+        "Nets in the water at 60,0.",
+        "On the way stands a dolphin, namely at [60, 0].",
         "Watch out for the barge which lies at 60,0.",
     ],
 )

@@ -60,7 +60,7 @@ CHECKS: tuple[Check, ...] = (
     *(said.measures, said.corrected, said.bare_numbers, said.clock_times),
     *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
     *(places.positions, said.limits, said.repeats, places.laid_otherwise),
-    *(places.there_and_not, places.left_out, places.misnamed),
+    *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),
     places.done_again,
 )

@@ -138,6 +138,20 @@ def _ruled_out(case: Case) -> Iterator[tuple[Position, Position]]:
                 yield place, one
 
 
+def turned_round(case: Case) -> Iterator[Warning]:
+    """An order that a clause turns round, and places that the plan takes as they were said."""
+    said = list(dict.fromkeys((place.x, place.y) for place in case.positions))
+    gone = list(dict.fromkeys(filter(None, (place_of(one, case.vocabulary) for one in case.tasks))))
+    planned = [place for place in gone if place in said]
+    for clause in case.clauses if len(planned) > 1 else ():
+        turned = case.words["turned"].search(clause.text)
+        before = [place for place in case.positions if place.start < clause.start]
+        inside = any(clause.start <= place.start < clause.end for place in case.positions)
+        if turned and len(before) > 1 and not inside and planned == sorted(planned, key=said.index):
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("contradiction", "order", about=words.casefold(), words=words)
+
+
 def left_out(case: Case) -> Iterator[Warning]:
     """A task at a thing that the command leaves out again: "on second thoughts skip the ramp"."""
     for clause, name, place in _left_out(case):

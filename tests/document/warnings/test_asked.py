@@ -132,6 +132,13 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ),
         ("Go to [30, 40], then back.", [THERE, BACK], []),
         ("Go to [30, 40], next [5, 6], then again.", [THERE, to(5, 6), THERE], []),
+        (
+            "Go to [30, 40], then [5, 6]. No, reverse the two.",
+            [THERE, to(5, 6)],
+            ["contradiction:reverse the two"],
+        ),
+        ("Go to [30, 40], then [5, 6]. No, reverse the two.", [to(5, 6), THERE], []),
+        ("Go to [30, 40]. No, swap the two, [40, 30].", [to(40, 30)], []),
         ("Inspect [30, 40].", [SURVEY, SURVEY], ["value-not-said:t2:asked"]),
         ("Inspect [30, 40] twice.", [SURVEY, SURVEY], []),
         ("Go to [30, 40], [5, 6], [30, 40].", [THERE, to(5, 6), THERE], []),
