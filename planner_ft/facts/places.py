@@ -128,8 +128,8 @@ def read_geographic(text: str) -> tuple[Geographic, ...]:
     sure = [match for match in known if _is_degrees(match)]
     for one, two in itertools.pairwise(known):
         # "54.3 N, 10.1 E": metres have no such letters at decimals.
-        both = all(_has_letter(match) and "." in (match["degrees"] or "") for match in (one, two))
-        if both and _degrees(one)[1] != _degrees(two)[1]:
+        lettered = (_has_letter(match) and "." in (match["degrees"] or "") for match in (one, two))
+        if all(lettered) and _degrees(one)[1] != _degrees(two)[1]:
             sure += [match for match in (one, two) if match not in sure]
     # "48.123N 7.5E": what stands beside degrees with a hemisphere of its own is degrees.
     pairs = [(one, two) for one, two in itertools.pairwise(known) if {one, two} & {*sure}]
