@@ -8,7 +8,7 @@ import dataclasses
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planner_ft.document.language import read_clauses
+from planner_ft.document.language import language, read_clauses
 from planner_ft.document.ontology import named_places
 from planner_ft.facts import WAYPOINT, Facts, Span, read
 from planner_ft.planning.frame import frame_of
@@ -31,14 +31,17 @@ def limits_of(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
 
 def _placed(limit: Limit, document: Entry, vocabulary: Vocabulary) -> Limit:
     """The limit; one that names a thing alone with the place of the one thing that ends with this
-    name: of the command, the chart, or what the operator has located.
+    name: home, or one of the command, the chart, or what the operator has located.
     """
     if "object" not in limit.values or "position" in limit.values:
         return limit
+    thing = _bare(limit.values["object"])
     named = [*document.get("structures", {}).items(), *document.get("located", {}).items()]
-    for words, place in named_places(frame_of(document).spoken, vocabulary):
+    if language(vocabulary).words["home"].fullmatch(thing):
+        named.append((thing, list(vocabulary.home)))
+    for words, place in named_places(frame_of(document).spoken, vocabulary, thing):
         named.append((words, [place.x, place.y]))
-    name = f" {_bare(limit.values['object'])}"
+    name = f" {thing}"
     places = [at for words, at in named if f" {_bare(words)}".endswith(name)]
     if not places or any(at != places[0] for at in places):
         return limit

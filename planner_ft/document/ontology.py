@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planner_ft.document.language import Language, language, read_clauses
+from planner_ft.document.language import Language, language, pattern, read_clauses
 from planner_ft.facts import Position, Span
 from planner_ft.facts.places import read_positions, rows_of, written_positions
 from planner_ft.vocabulary import Vocabulary
@@ -88,12 +88,16 @@ def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]
     yield start, text[start:]
 
 
-def named_places(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position]]:
+def named_places(
+    text: str, vocabulary: Vocabulary, thing: str = ""
+) -> Iterator[tuple[str, Position]]:
     """(words, position) of things beside certain positions: no waypoints and other places. "The
-    cages at" names all positions of the row behind it. What stands in the water needs no article.
+    cages at" names all positions of the row behind it. What stands in the water needs no article,
+    nor does the `thing` that is looked for.
     """
     spoken = language(vocabulary)
     bare = [match.span() for match in spoken.words["standing"].finditer(text)]
+    bare += [match.span() for match in pattern([thing] if thing else []).finditer(text)]
     named = [*sorted(bare), *sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])]
     own = {match.end() for match in spoken.words["own"].finditer(text)}
     things = [

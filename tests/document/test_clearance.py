@@ -138,6 +138,26 @@ def test_what_is_to_be_kept_clear_of_is_where_the_command_has_it() -> None:
     assert "position" not in plan["limits"][0]["values"]
 
 
+@pytest.mark.parametrize(
+    ("command", "thing", "place"),
+    [
+        (
+            "A jack-up rig stands at 100,0. Go to 200,0, stay 30 m clear of the rig.",
+            "rig",
+            [100, 0],
+        ),
+        ("Wreck at 100,0. Go to 200,0, no closer than 30 m to that wreck.", "wreck", [100, 0]),
+        ("Go to 200,0 and keep 30 m from home.", "home", [0, 0]),
+    ],
+)
+def test_what_is_to_be_kept_clear_of_needs_no_article(
+    command: str, thing: str, place: list[float]
+) -> None:
+    limit = f"The vehicle stays at least 30 m from the {thing}."
+    plan = document([transit(200, 0)], command=command, constraints=[limit])
+    assert plan["limits"][0]["values"]["position"] == place
+
+
 @pytest.mark.parametrize(("margin", "reached"), [(20, 40), (15, 45), (5, 50), (None, 50)])
 def test_what_is_followed_is_gone_to_no_closer_than_the_filter_lets_it(
     margin: float | None, reached: float
