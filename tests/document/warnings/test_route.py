@@ -59,6 +59,7 @@ def test_a_plan_comes_home_or_docks(tasks: list[dict[str, Any]], *, missing: boo
     ("command", "asked"),
     [
         ("From home you go to 9,9.", False),
+        ("From home base you go to 9,9.", False),
         ("Go to 9,9, within 600 m of home.", False),
         ("From home you go to 9,9, then home.", True),
     ],
