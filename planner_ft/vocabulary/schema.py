@@ -233,7 +233,7 @@ def document_schema(vocabulary: Vocabulary) -> Schema:
 def task_schema(vocabulary: Vocabulary) -> Schema:
     """The schema of one task as it is proposed or edited: without the sources of its values."""
     tasks = _tasks(frame_schema()["properties"]["proposed"], vocabulary)
-    return {**tasks["items"], "$defs": {"step": step_schema(vocabulary, strict=True)}}
+    return {**tasks["items"], "$defs": document_schema(vocabulary)["$defs"]}
 
 
 def _tasks(frame: Schema, vocabulary: Vocabulary) -> Schema:

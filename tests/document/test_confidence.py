@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.confidence.calibration import Judgement
-from planner_ft.document import apply, document_digest, revise, undo
+from planner_ft.document import adopt, apply, document_digest, revise, undo
 from planner_ft.document.build import PlanDocument, build, document_problem
 from planner_ft.document.confidence import (
     choice_lines,
@@ -125,6 +125,11 @@ def test_new_skills_have_their_own_confidence(plan: PlanDocument) -> None:
         == (sure["skills"])
     )
     assert "skills" not in apply(plan, edit, USV)["tasks"][0]["confidence"]
+
+
+def test_a_plan_with_confidence_that_was_altered_outside_is_adopted(plan: PlanDocument) -> None:
+    plan["tasks"][0]["task_prompt"] = "Wait."
+    assert adopt(plan, USV)["tasks"][0]["task_prompt"] == "Wait."
 
 
 def test_what_is_not_known_is_said() -> None:

@@ -86,6 +86,10 @@ def test_one_changed_digit_is_seen(plan: PlanDocument, tmp_path: Path) -> None:
         (lambda plan: "[]", "is no plan document"),
         (lambda plan: json.dumps({**plan, "version": 9}), "is of version 9"),
         (
+            lambda plan: json.dumps({**plan, "manifest": {**plan["manifest"], "agents": None}}),
+            "manifest.agents",
+        ),
+        (
             lambda plan: json.dumps({**plan, "vocabulary": {"name": "usv", "sha256": "0" * 64}}),
             "was made with another vocabulary",
         ),
