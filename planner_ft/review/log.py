@@ -164,7 +164,10 @@ def existing_log(log: Path) -> Path:
 
 @contextlib.contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """Hold the lock file .NAME.lock beside `path`; waits for other holders. Not re-entrant."""
+    """Hold the lock file .NAME.lock beside `path`, of a link beside what it points to; waits for
+    other holders. Not re-entrant.
+    """
+    path = Path(os.path.realpath(path))
     lock = FileLock(path.with_name(f".{path.name}.lock"))
     what = f"cannot be made, so nothing is written to {path.name}"
     with files.writing(lock.lock_file, "make the folder writable", what):

@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import secrets
+import shutil
 import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -35,18 +36,23 @@ def writing(path: Path | str, way: str, what: str = "cannot be written") -> Iter
 
 @contextlib.contextmanager
 def atomic_writer(path: Path | str, mode: str = "w") -> Iterator[IO[Any]]:
-    """A temporary file beside `path` that replaces it when the block ends without an exception.
-    Raises PlannerError (folder not writable, disk full); `path` is then as it was.
+    """A temporary file beside `path` that replaces it when the block ends without an exception; of a
+    link, what it points to. Raises PlannerError (no file, folder not writable, disk full); `path` is
+    then as it was.
     """
-    path = Path(path)
+    given, path = path, Path(os.path.realpath(path))
+    if path.exists() and not path.is_file():
+        raise PlannerError(f"{given}: is no file that can be replaced; give a file")
     temporary = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(3)}.tmp")
     try:
-        with writing(path, "choose another folder or free some space"):
+        with writing(given, "choose another folder or free some space"):
             path.parent.mkdir(parents=True, exist_ok=True)
             with open(temporary, mode, encoding=None if "b" in mode else "utf-8") as stream:
                 yield stream
                 stream.flush()
                 os.fsync(stream.fileno())
+            if path.exists():
+                shutil.copymode(path, temporary)
             temporary.replace(path)
     finally:
         with contextlib.suppress(OSError):

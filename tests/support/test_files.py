@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,24 @@ def test_a_full_disk_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     with pytest.raises(PlannerError, match="No space left on device"):
         write_json(tmp_path / "result.json", {"a": 1})
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_link_stays_and_what_it_points_to_is_replaced(tmp_path: Path) -> None:
+    link, path = tmp_path / "link.json", tmp_path / "result.json"
+    write_json(path, 1)
+    path.chmod(0o600)
+    link.symlink_to(path)
+    write_json(link, 2)
+    assert link.is_symlink() and json.loads(path.read_text()) == 2
+    assert path.stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])
+def test_what_is_no_file_is_not_replaced(make: Callable[[Path], None], tmp_path: Path) -> None:
+    make(tmp_path / "result.json")
+    with pytest.raises(PlannerError, match="is no file that can be replaced"):
+        write_json(tmp_path / "result.json", 1)
+    assert not (tmp_path / "result.json").is_file()
 
 
 @pytest.mark.parametrize(
