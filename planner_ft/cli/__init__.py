@@ -1,5 +1,6 @@
 """The command line: `plannerft`. Commands parse, call one function of the library and print."""
 
+import io
 import itertools
 import os
 import sys
@@ -13,12 +14,15 @@ def main() -> None:
     # OpenMP threads that wait should sleep: spinning ones make a shared machine ten times slower.
     # Read when torch is imported.
     os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
-    from planner_ft.cli.app import app
-
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # its encoding may lack what a text holds
+            stream.reconfigure(errors="replace")
     debug = "--debug" in sys.argv
     if debug:
         sys.argv.remove("--debug")
     try:
+        from planner_ft.cli.app import app
+
         for option, value in itertools.pairwise(sys.argv[1:]):
             # A variable of a shell that is not set; as a path, it would be the working folder.
             if option.startswith("--") and not value:
@@ -33,9 +37,12 @@ def main() -> None:
         # The reader (head, less) closed the pipe: nothing is wrong.
         sys.stderr.close()
         sys.exit(0)
+    except KeyboardInterrupt:
+        sys.exit(130)
     except OSError as error:
-        if debug or error.filename is None:
+        if debug:
             raise
-        problem = f"cannot be used ({error.strerror})"
-        show(f"plannerft: {error.filename}: {problem}; give another path", error=True)
+        where = error.filename or "the output, or a file that was read or written"
+        problem = f"cannot be used ({error.strerror or error})"
+        show(f"plannerft: {where}: {problem}; give another path or free some space", error=True)
         sys.exit(2)

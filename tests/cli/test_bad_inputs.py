@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -316,3 +318,24 @@ def test_it_is_refused_with_a_sentence(
     assert "Traceback" not in said and said.strip()
     assert list(tmp_path.iterdir()) == []
     assert {path.name for path in inputs.rglob("*")} == {*FILES, "FOLDER"}
+
+
+@pytest.mark.parametrize(
+    ("error", "status"), [(KeyboardInterrupt(), 130), (OSError(28, "No space left on device"), 2)]
+)
+def test_what_no_command_catches_ends_without_a_traceback(
+    error: BaseException, status: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("planner_ft.cli.app.app", Mock(side_effect=error))
+    monkeypatch.setattr(sys, "argv", ["plannerft", "doctor"])
+    with pytest.raises(SystemExit) as stop:
+        main()
+    assert stop.value.code == status
+
+
+def test_a_terminal_without_a_character_shows_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(io.BytesIO(), "ascii"))
+    monkeypatch.setattr(sys, "argv", ["plannerft", "candidates"])
+    with pytest.raises(SystemExit) as stop:
+        main()
+    assert not stop.value.code
