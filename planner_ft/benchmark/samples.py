@@ -93,7 +93,7 @@ def _problems(record: Any, level: Level, vocabulary: Vocabulary) -> Iterator[str
         yield f'expected must be an object with the list "{key}" (is this data of --level {level}?)'
         return
     mission = level == "mission"
-    if not mission and record.get("task") not in vocabulary.task:
+    if not mission and str(record.get("task")) not in vocabulary.task:
         yield f"task {record.get('task')!r} is no task of the vocabulary {vocabulary.name}"
     if not mission and not isinstance(record.get("parameters"), dict):
         yield "parameters is missing or no object"

@@ -91,6 +91,7 @@ def test_a_bad_mission_record_is_named_by_file_and_line(
     ("record", "problem"),
     [
         (changed(TASK, task="Fly"), "'Fly'"),
+        (changed(TASK, task={}), "is no task"),
         (changed(TASK, parameters=...), "parameters is missing"),
         (changed(TASK, expected={"tasks": []}), "--level task"),
         (changed(TASK, expected={"skill_sequence": [{"filter_skills": []}]}), "has no name"),
