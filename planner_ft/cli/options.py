@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import inspect
+import os
 import shlex
 import signal
 import sys
@@ -23,6 +24,8 @@ from planner_ft.support.alone import alone
 from planner_ft.support.terminal import Report, terminal
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     from rich.console import Console
 
     from planner_ft.support.tables import Table
@@ -173,8 +176,12 @@ def _interruptible(kept: Callable[[], str] | None) -> Iterator[tuple[Console, th
     """A console, and an event that Ctrl-C sets: libraries swallow KeyboardInterrupt."""
     console, pressed = terminal(stderr=True), threading.Event()
 
-    def press(_number: int, _frame: object) -> None:
+    def press(number: int, frame: FrameType | None) -> None:
         pressed.set()
+        if frame and frame.f_code.co_filename.startswith("<frozen importlib"):
+            # There it would be swallowed, or leave a lock of Python held for ever: a moment later.
+            threading.Timer(0.01, os.kill, (os.getpid(), number)).start()
+            return
         raise KeyboardInterrupt
 
     before = signal.getsignal(signal.SIGINT)

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import io
+import signal
 import sys
+import time
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 from unittest.mock import Mock
 
 import pytest
+import typer
 
 from planner_ft.cli import main
+from planner_ft.cli.options import interruptible
 
 COMMANDS = """
 bench --level mission --candidates embedded --seed -1 --out OUT
@@ -339,3 +345,12 @@ def test_a_terminal_without_a_character_shows_another(monkeypatch: pytest.Monkey
     with pytest.raises(SystemExit) as stop:
         main()
     assert not stop.value.code
+
+
+def test_ctrl_c_inside_the_import_of_a_module_waits_for_its_end() -> None:
+    importing = SimpleNamespace(f_code=SimpleNamespace(co_filename="<frozen importlib._bootstrap>"))
+    with pytest.raises(typer.Exit) as stop, interruptible():
+        press: Any = signal.getsignal(signal.SIGINT)
+        press(signal.SIGINT, importing)
+        time.sleep(60)
+    assert stop.value.exit_code == 130
