@@ -20,9 +20,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from planner_ft.benchmark.figures import summarise
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
-from planner_ft.benchmark.summary import summarise
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.support.files import read_jsonl, write_jsonl
 from planner_ft.vocabulary import Vocabulary, load_vocabulary

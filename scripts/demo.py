@@ -24,7 +24,7 @@ BEGIN, END = "<!-- make demo: begin -->", "<!-- make demo: end -->"
 
 def section(title: str, results: Results) -> list[TableRow]:
     named = f"{title}, {results.data['n']} commands"
-    lines = [row(one.configuration, *one.cells(COLUMNS)) for one in results.rows]
+    lines = [row(one.heading, *one.cells(COLUMNS)) for one in results.rows]
     return [row(named, kind="section"), *lines]
 
 
@@ -36,7 +36,7 @@ def chart(drone: Results, surface: Results) -> Chart:
         for name, words in DRAWN.items():
             found = one.figure(name)
             bar = cell(found.value, found.low, found.high), cell(None)
-            rows.append(row(f"{vehicle}, {one.configuration}: {words}", *bar))
+            rows.append(row(f"{vehicle}, {one.heading}: {words}", *bar))
             groups.append(words)
     title = "A new vehicle, and the one that the base knows"
     table = Table("System", ("share, with 95 % intervals", ""), rows, name="demo", title=title)
@@ -61,7 +61,7 @@ def verdict(results: Results, first: str, second: str, metric: str) -> str:
 
 
 def sentences(drone: Results, surface: Results, trained: dict, commands: int) -> list[str]:
-    rows = {one.system.configuration: one for one in drone.rows}
+    rows = {one.configuration: one for one in drone.rows}
     seconds, copies = trained["result"]["seconds"], trained["samples"]["training"] - commands
     return [
         "Shown the drone's tasks in its prompt alone, the base reaches"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.benchmark.breakdown import confidence_figures
+from planner_ft.benchmark.figures import confidence_figures
 from planner_ft.benchmark.folder import PREDICTIONS, RUN, records_by_key
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.samples import BenchData, Sample, load_bench_data

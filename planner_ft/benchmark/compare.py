@@ -107,13 +107,12 @@ def run_rows(path: Path, results: Results) -> list[RunRow]:
     """The rows of a run and its baselines. Raises PlannerError for one without scores."""
     scores, rows = by_system([*results.scores, *results.baseline_scores]), []
     for one in [*results.rows, *results.baselines]:
-        system = one.system
-        key = system.candidate, system.configuration
+        key = one.candidate, one.configuration
         if key not in scores:
             way = f"score the run again with `plannerft score --run {path}`"
             raise PlannerError(f"{path / SCORES}: has no scores of {one.key}; {way}")
-        name = system.candidate if system.is_baseline else one.key
-        rows.append(RunRow(name, name, path, scores[key], one.missing, system.is_baseline))
+        name = one.candidate if one.is_baseline else one.key
+        rows.append(RunRow(name, name, path, scores[key], one.missing, one.is_baseline))
     return rows
 
 

@@ -15,11 +15,11 @@ from typing import Any
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import Scores, by_system, sentences
+from planner_ft.benchmark.figures import OF_GROUPS, summarise
 from planner_ft.benchmark.paired import Comparison, adjusted, paired
 from planner_ft.benchmark.samples import BenchData, default_data, load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.summary import OF_GROUPS, summarise
 from planner_ft.benchmark.units import UNIT, State, Unit, Units, arguments
 from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import weights_sha256

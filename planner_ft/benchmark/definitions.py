@@ -107,7 +107,7 @@ def run_gate(
     row = results.rows[0]
     found = (_shortfall(row, *threshold) for threshold in gate.thresholds.items())
     if shortfalls := [text for text in found if text]:
-        where = f"{gate.path}: {row.system.label}, {row.system.configuration}"
+        where = f"{gate.path}: {row.label}, {row.configuration}"
         raise GateError(f"{where}: {'; '.join(shortfalls)}")
     return results
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -87,14 +87,14 @@ class RecordLog(contextlib.AbstractContextManager["RecordLog"]):
 
     def read(self) -> None:
         """Read the records again, those of other processes, too."""
-        for number, record, problem in files.iterate_jsonl(self.path):
-            if not problem and not _is_record(record):
-                problem = "no record of a run (key and id are expected)"
-            if problem or record is None:
-                self.close()
-                way = "remove the line, or start with --overwrite"
-                raise PlannerError(f"{self.path}:{number}: {problem}; {way}")
-            self.records[record["key"], record["id"]] = record
+        try:
+            for record in _checked(
+                self.path, _record_problem, "remove the line, or start with --overwrite"
+            ):
+                self.records[record["key"], record["id"]] = record
+        except PlannerError:
+            self.close()
+            raise
 
     def of_key(self, key: str) -> dict[str, Line]:
         """The records of a key by sample id."""
@@ -145,8 +145,18 @@ def kept(path: Path) -> str:
     return f"{count} answers are kept in {path}"
 
 
-def _is_record(record: Any) -> bool:
-    return isinstance(record, dict) and all(isinstance(record.get(n), str) for n in ("key", "id"))
+def _record_problem(record: Any) -> str | None:
+    known = _holds(record, key=str, id=str)
+    return None if known else "no record of a run (key and id are expected)"
+
+
+def _checked(path: Path, problem_of: Callable[[Any], str | None], way: str) -> Iterator[Line]:
+    """The records of a file. Raises PlannerError with the way out for the first with a problem."""
+    record: Any
+    for number, record, problem in files.iterate_jsonl(path):
+        if problem := problem or problem_of(record):
+            raise PlannerError(f"{path}:{number}: {problem}; {way}")
+        yield record
 
 
 def records_by_key(path: Path) -> dict[str, dict[str, Line]]:
@@ -156,27 +166,18 @@ def records_by_key(path: Path) -> dict[str, dict[str, Line]]:
     for line in text[: text.rfind(b"\n") + 1].splitlines():
         with contextlib.suppress(ValueError):
             record = json.loads(line)
-            if _is_record(record):
+            if _record_problem(record) is None:
                 found.setdefault(record["key"], {})[record["id"]] = record
     return found
 
 
-@dataclass(frozen=True)
-class RunRecord:
-    """run.json. `jobs` are the parts that answers depend on, `keys` their digests, `systems` those
-    measured, all by job name; `costs` are a candidate's costs beside its queries; `settings` are
-    level, data, limit, vocabulary and seed.
-    """
-
-    jobs: dict[str, dict[str, Any]]
-    keys: dict[str, str]
-    systems: dict[str, System]
-    settings: dict[str, Any]
-    costs: dict[str, dict[str, Any]]
-
-
 def begin_run(plan: Plan, predictions: RecordLog) -> None:
-    """Write run.json. Raises PlannerError when the folder holds a run of something else."""
+    """Write run.json. Raises PlannerError when the folder holds a run of something else.
+
+    `jobs` are the parts that answers depend on, `keys` their digests, `systems` those measured, all
+    by job name; `costs` are a candidate's costs beside its queries; `settings` are level, data,
+    limit, vocabulary and seed.
+    """
     path, settings = plan.settings.folder / RUN, plan.settings
     before: dict[str, Any] = files.read_json(path) if path.is_file() else {}
     _check_jobs(plan, path, before.get("jobs", {}))
@@ -215,32 +216,36 @@ def add_costs(folder: Path, candidate: str, costs: Mapping[str, Any]) -> None:
     files.write_json(folder / RUN, record)
 
 
-def read_run(folder: Path) -> RunRecord:
+def read_run(folder: Path) -> Line:
     """Read run.json. Raises PlannerError when there is none, or an earlier version wrote less."""
     path = folder / RUN
     if not path.is_file():
         other = "for other predictions give --predictions FILE"
         raise PlannerError(f"{folder}: no {RUN}, so no run of `plannerft bench`; {other}")
     record = files.read_json(path)
-    names = [field.name for field in fields(RunRecord)]
-    if not isinstance(record, dict) or not all(isinstance(record.get(n), dict) for n in names):
+    if not _holds(record, **dict.fromkeys(("jobs", "keys", "systems", "settings", "costs"), dict)):
         way = f"score its answers with --predictions {folder / PREDICTIONS}"
         raise PlannerError(f"{path}: does not say what was run; {way}")
-    systems = {name: System(**system) for name, system in record["systems"].items()}
-    return RunRecord(**{name: record[name] for name in names} | {"systems": systems})
+    known: Line = record
+    return known
 
 
-def measured_in(folder: Path, run: RunRecord, names: Sequence[str] | None = None) -> list[Measured]:
+def _holds(record: Any, **kinds: type) -> bool:
+    """Whether a value is an object with these keys, and values of these types."""
+    found = record if isinstance(record, dict) else {}
+    return all(isinstance(found.get(name), kind) for name, kind in kinds.items())
+
+
+def measured_in(folder: Path, run: Line, names: Iterable[str] | None = None) -> list[Measured]:
     """A run's systems, or those of these jobs, with all their lines, read without locking."""
     logs = [records_by_key(folder / name) for name in (PREDICTIONS, LATENCY)]
     planned, found = records_by_key(folder / PLANNING), []
-    for name in run.systems if names is None else names:
-        system = run.systems[name]
-        costs = run.costs.get(system.candidate, {})
+    for name in run["systems"] if names is None else names:
+        system = System(**run["systems"][name])
+        costs = run["costs"].get(system.candidate, {})
         planning = costs.get("planning_keys", {}).get(system.configuration)
-        answers, timed = (log.get(run.keys[name], {}) for log in logs)
-        lines = [*planned.get(planning, {}).values()]
-        found.append(Measured(system, answers, timed, costs, lines))
+        answers, timed = (log.get(run["keys"][name], {}) for log in logs)
+        found.append(Measured(system, answers, timed, costs, [*planned.get(planning, {}).values()]))
     return found
 
 
@@ -261,28 +266,27 @@ def read_results(folder: Path) -> tuple[Results, dict[str, Any]]:
     if not path.is_file():
         written = "`plannerft bench` or `plannerft score --out` has written to its end"
         raise PlannerError(f"{folder}: no {RESULTS}; give a folder that {written}")
-    record, kinds = files.read_json(path), {"level": str, "data": dict, "rows": list}
-    if not isinstance(record, dict) or not all(
-        isinstance(record.get(key), kind) for key, kind in kinds.items()
-    ):
+    record = files.read_json(path)
+    if not _holds(record, level=str, data=dict, rows=list):
         expected = "level, data and rows are expected"
         raise PlannerError(f"{path}: is no result of `plannerft bench` ({expected})")
     check_level(record["level"])
-    lines = [list(_scores(folder / name)) for name in (SCORES, BASELINES)]
+    lines = [_scores(folder / name) for name in (SCORES, BASELINES)]
     return Results.from_json(record, *lines), record
 
 
-def _scores(path: Path) -> Iterator[dict[str, Any]]:
+def _scores(path: Path) -> list[Line]:
+    """The lines of a file of scores, none without it, each system and sample once."""
     seen: set[tuple[Any, ...]] = set()
-    for number, line, problem in files.iterate_jsonl(path) if path.is_file() else ():
-        if not problem and not (isinstance(line, dict) and isinstance(line.get("id"), str)):
-            problem = "no score of a sample (id is expected)"
-        if not problem and line is not None:
-            key = line.get("candidate"), line.get("configuration"), line["id"], line.get("repeat")
-            if key in seen:
-                problem = f"{key[0]} {key[1]} has a score of {line['id']!r} already"
-            seen.add(key)
-        if problem or line is None:
-            way = "score the run again with `plannerft score --run`"
-            raise PlannerError(f"{path}:{number}: {problem}; {way}")
-        yield line
+
+    def problem_of(line: Any) -> str | None:
+        if not _holds(line, id=str):
+            return "no score of a sample (id is expected)"
+        key = line.get("candidate"), line.get("configuration"), line["id"], line.get("repeat")
+        if key in seen:
+            return f"{key[0]} {key[1]} has a score of {line['id']!r} already"
+        seen.add(key)
+        return None
+
+    way = "score the run again with `plannerft score --run`"
+    return list(_checked(path, problem_of, way)) if path.is_file() else []

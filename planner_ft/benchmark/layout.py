@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.benchmark.catalogue import MAIN, METRIC, METRICS, RIGHT
 from planner_ft.benchmark.contrasts import contrast_notes, marks, sentences
-from planner_ft.benchmark.results import Results, Row, System
+from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.support.files import read_csv
 from planner_ft.support.tables import Cell, Table, TableRow, row, terminal_table
@@ -36,8 +36,8 @@ def published_rows(level: Level) -> tuple[Row, ...]:
             metric, _, of = column.rpartition("_")
             if of == configuration:
                 metrics[metric] = Estimate(float(text) / (100 if metric in PERCENT else 1))
-        system = System(model, configuration, label=f"{model} (published)", published=model)
-        rows.append(Row(system, SAMPLES[level], metrics, quoted=True))
+        named = model, configuration, f"{model} (published)", model
+        rows.append(Row(*named, n=SAMPLES[level], metrics=metrics, quoted=True))
     return tuple(rows)
 
 
@@ -58,8 +58,8 @@ def lines(results: Results, *, beside: bool = True) -> list[Row]:
         for one in of_candidate:
             own = {metric: mark for (key, metric), mark in known.items() if key == one.key}
             found.append(replace(one, marks=own))
-        system = of_candidate[0].system
-        found += theirs.pop(system.published or "", []) if not system.is_standin else []
+        first = of_candidate[0]
+        found += theirs.pop(first.published or "", []) if not first.is_standin else []
     found += results.baselines
     return [*found, *(row for of_model in theirs.values() for row in of_model)]
 
@@ -67,17 +67,17 @@ def lines(results: Results, *, beside: bool = True) -> list[Row]:
 def shows_published(results: Results) -> bool:
     """Whether published figures stand beside: for real candidates and the vehicle of the study."""
     vocabulary = results.manifest.get("configuration", {}).get("vocabulary", {}).get("name")
-    return vocabulary == VOCABULARY and any(not one.system.is_standin for one in results.rows)
+    return vocabulary == VOCABULARY and any(not one.is_standin for one in results.rows)
 
 
 def _published(results: Results) -> dict[str, list[Row]]:
     """Published rows by model, in the configurations of the run if it has any of theirs."""
     if not shows_published(results):
         return {}
-    ours = {one.system.configuration for one in results.rows}
+    ours = {one.configuration for one in results.rows}
     shown = ours & {*CONFIGURATIONS} or {*CONFIGURATIONS}
     return {
-        rows[0].system.candidate: [one for one in rows if one.system.configuration in shown]
+        rows[0].candidate: [one for one in rows if one.configuration in shown]
         for rows in by_candidate(published_rows(results.level))
     }
 
@@ -86,7 +86,7 @@ def by_candidate(rows: Iterable[Row]) -> list[list[Row]]:
     """Rows by candidate, in their order."""
     found: dict[str, list[Row]] = {}
     for one in rows:
-        found.setdefault(one.system.candidate, []).append(one)
+        found.setdefault(one.candidate, []).append(one)
     return list(found.values())
 
 
@@ -109,8 +109,7 @@ def figures_table(shown: Sequence[Row]) -> Table:
 
 def _figures(shown: Sequence[Row], metrics: Sequence[str]) -> list[TableRow]:
     return [
-        row(one.system.label, one.configuration, str(one.n), *one.cells(metrics), kind=one.kind)
-        for one in shown
+        row(one.label, one.heading, str(one.n), *one.cells(metrics), kind=one.kind) for one in shown
     ]
 
 
@@ -120,8 +119,8 @@ def notes(results: Results) -> list[str]:
         "results": results,
         "timed": max((one.latency_n for one in results.rows), default=0),
         "published": published_source(results.level) if shows_published(results) else "",
-        "grounded": any(one.system.configuration.endswith("+grounded") for one in results.rows),
-        "systems": {one.system.candidate: one.system for one in results.rows}.values(),
+        "grounded": any(one.configuration.endswith("+grounded") for one in results.rows),
+        "systems": {one.candidate: one for one in results.rows}.values(),
         "trained_on": trained_on,
     }
     of_data, of_rows = (sentences("notes", part=part, **about) for part in ("data", "rows"))
@@ -131,7 +130,7 @@ def notes(results: Results) -> list[str]:
 
 def trained_on(one: Row) -> str:
     """That an adapter was trained on samples that it is measured on."""
-    seen = f"{one.system.seen} of {one.n} samples were in its adapter's training or validation data"
+    seen = f"{one.seen} of {one.n} samples were in its adapter's training or validation data"
     return f"{one.name}: {seen}; its figures say nothing about other commands."
 
 
@@ -156,11 +155,11 @@ def _narrow(names: Iterable[str], shown: Sequence[Row]) -> Any:
     metrics = [METRIC[name] for name in _known(names, shown)]
     rows: list[TableRow] = []
     for line in shown:
-        label = line.system.label
+        label = line.label
         if line.kind != "baseline":
             if label not in [one.heading for one in rows]:
                 rows.append(row(label, kind="section"))
-            label = f"  {line.configuration}"
+            label = f"  {line.heading}"
         cells = zip(metrics, line.cells(one.name for one in metrics), strict=True)
         short = [_short(cell, one.decimals if one.scale == 1 else 0) for one, cell in cells]
         rows.append(row(label, *short, kind=line.kind))
@@ -177,7 +176,7 @@ def _short(cell: Cell, decimals: int) -> Cell:
 def print_warnings(results: Results, console: Console) -> None:
     """Name the samples without a prediction, and adapters that were trained on the samples."""
     for one in results.rows:
-        if one.system.seen:
+        if one.seen:
             console.print(f"warning: {trained_on(one)}", soft_wrap=True)
         if one.missing:
             missing = f"no prediction for {', '.join(one.missing)}; counted as empty outputs"

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import functools
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, get_args
 
-from planner_ft.benchmark import summary
+from planner_ft.benchmark import figures
 from planner_ft.benchmark.baselines import make_baselines
-from planner_ft.benchmark.breakdown import Breakdown, breakdown
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import Contrasts, Question, changes, contrasts, system_key
 from planner_ft.benchmark.metrics.failures import FAILURES
@@ -54,9 +53,19 @@ class System:
         """Its name in comparisons."""
         return system_key((self.candidate, self.configuration))
 
+    @property
+    def heading(self) -> str:
+        """The configuration as the published tables write it."""
+        return NOTHING if self.is_baseline else heading(self.configuration)
 
-@dataclass(frozen=True)
-class Row:
+    @property
+    def name(self) -> str:
+        """Label and configuration, as tables name a row."""
+        return self.label if self.is_baseline else f"{self.label}, {self.heading}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row(System):
     """The figures of one system. `missing` are the samples without a prediction, which count as
     empty outputs.
 
@@ -65,37 +74,21 @@ class Row:
     are published ones, not measured here; `marks` are those of tables by metric.
     """
 
-    system: System
     n: int
     metrics: dict[str, Estimate] = field(default_factory=dict)
     failures: dict[str, int] = field(default_factory=dict)
+    breakdown: Record = field(default_factory=dict)
     finish_reasons: dict[str, int] = field(default_factory=dict)
     missing: tuple[str, ...] = ()
     latency_n: int = 0
     repeats: dict[str, Any] | None = None
-    breakdown: Breakdown = field(default_factory=dict)
     costs: dict[str, Any] = field(default_factory=dict)
     quoted: bool = False
     marks: Mapping[str, str] = field(default_factory=dict)
 
     @property
-    def name(self) -> str:
-        """Label and configuration, as tables name a row."""
-        label = self.system.label
-        return label if self.system.is_baseline else f"{label}, {self.configuration}"
-
-    @property
-    def configuration(self) -> str:
-        """The configuration as the published tables write it."""
-        return NOTHING if self.system.is_baseline else heading(self.system.configuration)
-
-    @property
     def kind(self) -> RowKind:
-        return "published" if self.quoted else "baseline" if self.system.is_baseline else "measured"
-
-    @property
-    def key(self) -> str:
-        return self.system.key
+        return "published" if self.quoted else "baseline" if self.is_baseline else "measured"
 
     def figure(self, metric: str) -> Estimate:
         """A metric, without a value where it was not measured."""
@@ -109,26 +102,25 @@ class Row:
         ]
 
     def to_json(self) -> Record:
-        system = asdict(self.system)
-        del system["repeat"]
-        named = {name: system.pop(name) for name in ("candidate", "configuration")}
-        metrics = {name: estimate.to_json() for name, estimate in self.metrics.items()}
-        figures = {**named, "n": self.n, "metrics": metrics, "failures": self.failures}
-        counts = {"finish_reasons": self.finish_reasons, "missing": list(self.missing)}
-        beside = {"repeats": self.repeats, "costs": self.costs}
-        known = {name: one for name, one in beside.items() if one}
-        return figures | self.breakdown | counts | {"latency_n": self.latency_n} | known | system
+        """As results.json has it: no costs or repeats where there are none."""
+        values: Record = asdict(self)
+        first = ("candidate", "configuration", "n", "metrics", "failures")
+        record: Record = {name: values.pop(name) for name in first} | values.pop("breakdown")
+        record |= {name: values.pop(name) for name in ("finish_reasons", "missing", "latency_n")}
+        beside = {name: values.pop(name) for name in ("repeats", "costs")}
+        record |= {name: found for name, found in beside.items() if found}
+        del values["repeat"], values["quoted"], values["marks"]
+        return record | values
 
     @classmethod
     def from_json(cls, record: Record) -> Row:
         """A row of results.json, also of an earlier version, which says less."""
         rest = {"label": str(record.get("candidate")), "n": 0, **record}
-        own = {one.name: rest.pop(one.name) for one in fields(System) if one.name in rest}
-        own |= {name: str(own.get(name)) for name in ("candidate", "configuration", "label")}
         known = {one.name: rest.pop(one.name) for one in fields(cls) if one.name in rest}
+        known |= {name: str(known.get(name)) for name in ("candidate", "configuration", "label")}
         known["metrics"] = {k: Estimate(**one) for k, one in known.get("metrics", {}).items()}
         known["missing"] = tuple(known.get("missing", ()))
-        return cls(System(**own), breakdown=rest, **known)
+        return cls(breakdown=rest, **known)
 
 
 @dataclass(frozen=True)
@@ -201,7 +193,7 @@ class Results:
     @property
     def groups(self) -> list[Record]:
         """Figures per group of the test data."""
-        return self.recorded.get("groups") or summary.group_figures(self.scores)
+        return self.recorded.get("groups") or figures.group_figures(self.scores)
 
 
 @dataclass(frozen=True)
@@ -224,37 +216,30 @@ def assemble(
     data: BenchData, vocabulary: Vocabulary, measured: Sequence[Measured], manifest: Record
 ) -> Results:
     """Score every system and the baselines; repeats of a system make one row."""
-    systems, seed = dict[str, list[Measured]](), manifest["seed"]
+    systems = defaultdict[str, list[Measured]](list)
     for entry in measured:
-        systems.setdefault(entry.system.key, []).append(entry)
-    baselines = make_baselines(data, vocabulary)
+        systems[entry.system.key].append(entry)
+    made = make_baselines(data, vocabulary)
     without_model = [
-        Measured(System(label, "baseline", f"{label} (baseline)", is_baseline=True), lines)
-        for label, lines in baselines.answers.items()
+        [Measured(System(label, "baseline", f"{label} (baseline)", is_baseline=True), lines)]
+        for label, lines in made.answers.items()
     ]
-    ours = [score_system(data, entries, vocabulary, seed) for entries in systems.values()]
-    theirs = [score_system(data, [one], vocabulary, seed) for one in without_model]
-    answers = [line for one in without_model for line in one.predictions.values()]
-    scored = (line for _row, lines in theirs for line in lines)
-    return Results(
-        data.level,
-        data.summary(),
-        tuple(row for row, _lines in ours),
-        manifest,
-        tuple(line for _row, lines in ours for line in lines),
-        baselines=tuple(row for row, _lines in theirs),
-        baseline_scores=tuple(
-            {**line, **answer} for line, answer in zip(scored, answers, strict=True)
-        ),
-        baseline_notes=baselines.notes,
-        training=baselines.training,
-    )
+
+    def scored(groups: Iterable[Sequence[Measured]]) -> tuple[tuple[Row, ...], tuple[Record, ...]]:
+        found = [score_system(data, one, vocabulary, manifest["seed"]) for one in groups]
+        return tuple(row for row, _ in found), tuple(line for _, lines in found for line in lines)
+
+    (rows, scores), (baselines, theirs) = scored(systems.values()), scored(without_model)
+    ours = data.level, data.summary(), rows, manifest, scores
+    return Results(*ours, baselines, theirs, made.notes, made.training)
 
 
 def score_system(
     data: BenchData, entries: Sequence[Measured], vocabulary: Vocabulary, seed: int
 ) -> tuple[Row, list[Record]]:
-    """The row of one system, measured once or once per repeat, and its scores per answer."""
+    """The row of one system, measured once or once per repeat, and its scores per answer; those of
+    a baseline hold the answers, too.
+    """
     asked = [
         (sample, one.predictions.get(sample.id), one.timed.get(sample.id))
         for one in entries
@@ -262,27 +247,27 @@ def score_system(
     ]
     scores = [score_sample(data.level, one, found, vocabulary, took) for one, found, took in asked]
     known = [answer.get("finish_reason") for _sample, answer, _timed in asked if answer]
-    reasons = Counter(str(reason) for reason in known if reason)
     missing = [sample.id for sample, answer, _timed in asked if answer is None]
-    failures = Counter(score.failure for score in scores)
+    failed = Counter(score.failure for score in scores)
     several, n, first = len(entries) > 1, len(data.samples), entries[0]
     named: Record = {name: getattr(first.system, name) for name in ("candidate", "configuration")}
     lines = [
         {**named, **({"repeat": index // n + 1} if several else {}), **score.to_json()}
-        for index, score in enumerate(scores)
+        | (dict(answer or {}) if first.system.is_baseline else {})
+        for index, (score, (_sample, answer, _timed)) in enumerate(zip(scores, asked, strict=True))
     ]
     families = {sample.id: sample.family for sample in data.samples}
     timed = {sample: line for one in entries for sample, line in one.timed.items()}
     row = Row(
-        replace(first.system, repeat=None),
-        n,
-        summary.summarise(lines, seed),
-        {kind: failures[kind] for kind in FAILURES},
-        dict(sorted(reasons.items())),
-        tuple(dict.fromkeys(missing)),
+        **vars(replace(first.system, repeat=None)),
+        n=n,
+        metrics=figures.summarise(lines, seed),
+        failures={kind: failed[kind] for kind in FAILURES},
+        breakdown=figures.breakdown(scores),
+        finish_reasons=dict(sorted(Counter(str(reason) for reason in known if reason).items())),
+        missing=tuple(dict.fromkeys(missing)),
         latency_n=sum(line["latency_s"] is not None for line in lines),
-        repeats=summary.pass_figures(lines, seed) if several else None,
-        breakdown=breakdown(scores),
-        costs=summary.cost_figures(timed, families, first.costs, first.planning, seed),
+        repeats=figures.pass_figures(lines, seed) if several else None,
+        costs=figures.cost_figures(timed, families, first.costs, first.planning, seed),
     )
     return row, lines

@@ -192,7 +192,7 @@ def _results(plan: Plan, took: dict[str, Any]) -> Results:
         inputs={"data": plan.data.path},
         device=plan.device,
         jobs={job.name: {**job.parts, "threads": job.threads} for job in plan.jobs},
-        costs=record.costs,
+        costs=record["costs"],
         run=took,
     )
     found = folder.measured_in(settings.folder, record, [job.name for job in plan.jobs])

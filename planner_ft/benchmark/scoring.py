@@ -7,7 +7,7 @@ from typing import Any
 
 from planner_ft.benchmark.metrics import failures, names
 from planner_ft.benchmark.metrics.alignment import Alignment
-from planner_ft.benchmark.metrics.facts import KINDS, groundedness, slot_propagation
+from planner_ft.benchmark.metrics.facts import groundedness, slot_propagation
 from planner_ft.benchmark.metrics.failures import Answer
 from planner_ft.benchmark.metrics.names import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
@@ -123,7 +123,7 @@ def _names(answer: Answer) -> Values:
         for key in ("f1", "precision", "recall"):
             values[f"{prefix}{key}"] = getattr(counts, key)
     if task_level:
-        by_role = names.counts_by_role(answer.given, answer.wanted)
+        by_role = names.counts_by("role", answer.given, answer.wanted)
         for role in ROLES:
             values |= _pooled(role, by_role.get(role, names.Counts(0, 0, 0)))
     flat = [[name for step in sequence for name in step] for sequence in steps]
@@ -159,31 +159,31 @@ def plan_logic(answer: Answer, record: dict[str, Any]) -> tuple[Values, Details]
     level, plan, vocabulary = answer.level, answer.plan, answer.vocabulary
     mission = level == "mission"
     source = read_input(record, vocabulary)
-    grounded = groundedness(answer.given, source, vocabulary)
-    reached = slot_propagation(plan, answer.alignment, source, vocabulary)
+    judged, ungrounded = groundedness(answer.given, source, vocabulary)
+    slots = slot_propagation(plan, answer.alignment, source, vocabulary)
     stop = failures.executable(plan, answer.expected, vocabulary) if mission else None
-    stated, refused = reached.stated.total(), failures.refuses(level, plan)
-    impossible = failures.refuses(level, answer.expected)
+    stated, in_parameters, in_prompt = (sum(n[at] for n in slots.values()) for at in range(3))
+    refused, impossible = (failures.refuses(level, one) for one in (plan, answer.expected))
     values: Values = {
         "executable": stop is None if mission else None,
-        "grounded": plan is not None and not grounded.ungrounded,
-        "values_judged": grounded.judged,
-        "values_grounded": grounded.judged - len(grounded.ungrounded),
+        "grounded": plan is not None and not ungrounded,
+        "values_judged": judged,
+        "values_grounded": judged - len(ungrounded),
         "slots_stated": stated,
         "slots_prompted": stated if mission else None,
-        "slots_in_parameters_right": reached.in_parameters.total(),
-        "slots_in_prompt_right": reached.in_prompt.total() if mission else None,
+        "slots_in_parameters_right": in_parameters,
+        "slots_in_prompt_right": in_prompt if mission else None,
         "right_refusal": refused if impossible else None,
         "wrong_refusal": None if impossible else refused,
     }
-    ungrounded: list[Details] = []
-    for one in grounded.ungrounded:
-        named = {"entry": one.entry, "name": answer.given[one.entry].name}
-        ungrounded.append({**named, "parameter": one.parameter.name, "value": one.value})
-    of_kinds = reached.stated, reached.in_parameters, reached.in_prompt if mission else None
-    slots = {
-        kind: [None if part is None else part[kind] for part in of_kinds]
-        for kind in KINDS
-        if reached.stated[kind]
+    details: Details = {
+        "stop": stop and asdict(stop),
+        "ungrounded": [
+            {"entry": one.entry, "name": answer.given[one.entry].name}
+            | {"parameter": one.parameter.name, "value": one.value}
+            for one in ungrounded
+        ],
+        # At task level there is no task prompt to reach.
+        "slots": {kind: n if mission else [*n[:2], None] for kind, n in slots.items()},
     }
-    return values, {"stop": stop and asdict(stop), "ungrounded": ungrounded, "slots": slots}
+    return values, details

@@ -39,20 +39,27 @@ def wilson(successes: int, n: int) -> Estimate:
     return _wilson(successes / n, n) if n else Estimate(None)
 
 
-def clustered_rate(successes: Sequence[bool], clusters: Sequence[Hashable]) -> Estimate:
+def clustered_rate(
+    successes: Sequence[int], clusters: Sequence[Hashable], sizes: Sequence[int] | None = None
+) -> Estimate:
     """A rate with the Wilson interval of its effective sample size, the Wilson interval itself
-    where no two samples share a cluster.
+    where no two samples share a cluster. With `sizes`, `successes` count those of so many samples.
 
     The effective size is n over the design effect: the variance of the rate with whole clusters as
     units over that of independent samples (Kish 1965), with Korn and Graubard's correction for few
     clusters (Survey Methodology 1998); Dean and Pagano (Journal of Survey Statistics and
     Methodology 2015) compare such intervals.
     """
-    if not len(successes):
+    hits, of = Counter[Hashable](), Counter[Hashable]()
+    sizes = [1] * len(successes) if sizes is None else sizes
+    for cluster, right, size in zip(clusters, successes, sizes, strict=True):
+        if size:
+            hits[cluster] += right
+            of[cluster] += size
+    if not of:
         return Estimate(None)
-    hits = Counter(cluster for cluster, hit in zip(clusters, successes, strict=True) if hit)
-    size = effective_size([(hits[cluster], size) for cluster, size in Counter(clusters).items()])
-    return _wilson(hits.total() / len(successes), size)
+    effective = effective_size([(hits[cluster], size) for cluster, size in of.items()])
+    return _wilson(hits.total() / of.total(), effective)
 
 
 def effective_size(counts: Sequence[tuple[int, int]]) -> float:

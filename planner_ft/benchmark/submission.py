@@ -46,14 +46,14 @@ def score_predictions(
 def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None = None) -> Results:
     """Score a run again, its data at `data_path` if moved. Raises PlannerError: other data."""
     record = read_run(folder)
-    settings = record.settings
+    settings = record["settings"]
     vocabulary = load_vocabulary(settings["vocabulary"])
     path = data_path or settings["data"]
     data = load_bench_data(path, settings["level"], vocabulary, settings["limit"])
     if data.sha256 != settings["data_sha256"]:
         problem = f"is not the data that {folder} was run on; give that file with --data"
         raise PlannerError(f"{data.path}: {problem}")
-    for name, parts in record.jobs.items():
+    for name, parts in record["jobs"].items():
         if parts.get("vocabulary") != vocabulary.sha256:
             problem = f"was run with another version of the vocabulary {vocabulary.name}"
             way = "restore it to score the run again"
@@ -64,8 +64,8 @@ def score_run(folder: Path, data_path: Path | None = None, *, seed: int | None =
         seed=seed,
         configuration={**settings, "vocabulary": vocabulary.named},
         inputs={"data": data.path},
-        jobs=record.jobs,
-        costs=record.costs,
+        jobs=record["jobs"],
+        costs=record["costs"],
     )
     return assemble(data, vocabulary, measured_in(folder, record), manifest)
 

@@ -12,7 +12,7 @@ from typing import Any
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.catalogue import METRIC, METRICS
 from planner_ft.benchmark.definitions import Part, Suite
-from planner_ft.benchmark.folder import RunRecord, measured_in, read_run
+from planner_ft.benchmark.folder import measured_in, read_run
 from planner_ft.benchmark.layout import lines
 from planner_ft.benchmark.plan import Plan, make_plan
 from planner_ft.benchmark.results import Measured, Results, assemble, heading
@@ -181,7 +181,7 @@ def combine(
         given = arguments((unit.plan or unit).settings)
         times = {"seconds": session.seconds.get(name), "finished_before": name in session.finished}
         record = records.get(name)
-        made = {"jobs": record.jobs if record else {}, "costs": record.costs if record else {}}
+        made = {key: record[key] if record else {} for key in ("jobs", "costs")}
         ran[name] = {"arguments": given, **times, **made}
     manifest = build_manifest(
         "suite",
@@ -202,7 +202,7 @@ def combine(
 
 
 def _part(
-    units: Sequence[Run], records: dict[str, RunRecord], manifest: dict[str, Any]
+    units: Sequence[Run], records: dict[str, dict[str, Any]], manifest: dict[str, Any]
 ) -> PartResults:
     part, data = units[0].part, units[0].data
     found: list[Measured] = []
@@ -262,7 +262,7 @@ def _overview(parts: Sequence[PartResults]) -> Table:
         rows.append(row(f"{named} ({GROUPS[one.part.apart]})", kind="section"))
         for found in lines(one.results, beside=False):
             cells = [replace(cell, mark="") for cell in found.cells(FIGURES)]
-            rows.append(row(found.system.label, found.configuration, *cells, kind=found.kind))
+            rows.append(row(found.label, found.heading, *cells, kind=found.kind))
         for entry in one.failed:
             cells_of = ("not measured", *[""] * (len(FIGURES) - 1))
             rows.append(row(entry["label"], heading(entry["configuration"]), *cells_of))
@@ -300,7 +300,7 @@ def _csv(parts: Sequence[PartResults]) -> Iterator[list[Any]]:
     for one in parts:
         common = [one.part.name, one.results.level, int(one.part.apart), one.results.data["n"]]
         for found in (*one.results.rows, *one.results.baselines):
-            named = [getattr(found.system, key) for key in NAMED]
+            named = [getattr(found, key) for key in NAMED]
             bounds = [one for name in METRICS for one in found.figure(name).to_json().values()]
             values = [None if bound is None else f"{bound:.6g}" for bound in bounds]
             yield [*common, *named, found.kind, None, *values]

@@ -1,21 +1,21 @@
-"""The charts of a test set: tables of figures, and how they are drawn. What each shows and how to
-read it stands in figures.toml.
+"""The charts of a test set: tables of figures, and how they are drawn. The kind of each, its columns,
+what it shows and how to read it stand in figures.toml.
 """
 
 import tomllib
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import astuple, dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
+from planner_ft.benchmark.figures import QUANTILES
 from planner_ft.benchmark.layout import lines, shows_published
 from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Row
 from planner_ft.benchmark.statistics import quantile
-from planner_ft.benchmark.summary import QUANTILES
 from planner_ft.report.runs import Record, TestSet
 from planner_ft.support.tables import NOTHING, Cell, Table, TableRow, row
 from planner_ft.vocabulary.plans import list_key
@@ -23,10 +23,11 @@ from planner_ft.vocabulary.plans import list_key
 F1 = ("f1", "latency_s")
 POINTS = 40  # of a curve, at most
 HEATS = 6  # shades of a count, beside none
-WORDS: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
-LEVELS: Record = WORDS["levels"]
+FIGURES: Record = tomllib.loads(Path(__file__).with_name("figures.toml").read_text("utf-8"))
+LEVELS: Record = FIGURES["levels"]
 
 Counts = Mapping[str, Sequence[int | None]]  # by the heading of a row
+Rows = Iterator[TableRow]
 Kind = Literal["bars", "lines", "dots", "matrix"]
 
 
@@ -49,14 +50,15 @@ class Chart:
 
 def charts(tests: TestSet) -> list[Chart]:
     """The figures over all systems for which the runs hold something, in the order of the page."""
-    first = (_f1, _failures, _stops, _reliability, _risk_coverage)
-    makers = (*first, _latency, _planning, _latency_by_size)
-    return [chart for maker in makers if (chart := maker(tests)).table.rows]
+    found = [_f1(tests), _failures(tests), _stops(tests)]
+    found += [_chart(tests, kind, list(points(tests))) for kind, points in POINTS_OF.items()]
+    return [chart for chart in found if chart.table.rows]
 
 
 def system_charts(tests: TestSet, system: Row) -> list[Chart]:
     """The figures of one system: names one by one, and substitutions."""
-    found = [_names(tests, system), _substitutions(tests, system)]
+    found = [_chart(tests, "names", list(_names(system)), system=system.name)]
+    found.append(_substitutions(tests, system))
     return [chart for chart in found if chart.table.rows]
 
 
@@ -83,15 +85,23 @@ def cell(value: float | None, low: float | None = None, high: float | None = Non
     return Cell(number(value), interval, bounds=(value, low, high))
 
 
-def _table(
-    tests: TestSet, kind: str, heads: Sequence[str], rows: Sequence[TableRow], **values: object
-) -> Table:
-    """A chart's table under its words; that of one system ends with the system's slug."""
-    ending = f"-{slug(str(values['system']))}" if "system" in values else ""
+def _chart(
+    tests: TestSet,
+    name: str,
+    rows: Sequence[TableRow],
+    heads: Sequence[str] | None = None,
+    **values: object,
+) -> Chart:
+    """Rows under the words of figures.toml; a chart of one system ends with the system's slug.
+    `heads` stand for those that the runs say.
+    """
+    about: Record = FIGURES[name]
     words = LEVELS[tests.level] | {"n": tests.n, **values}
-    title, caption = (WORDS[kind][key].format(**words) for key in ("title", "caption"))
-    name = f"{tests.key}-{kind}{ending}"
-    return Table(heads[0], heads[1:], rows, 0, name, title, caption)
+    title, caption = (about[key].format(**words) for key in ("title", "caption"))
+    heads = heads or [one.format(**words) for one in about["heads"]]
+    ending = f"-{slug(str(values['system']))}" if "system" in values else ""
+    table = Table(heads[0], heads[1:], rows, 0, f"{tests.key}-{name}{ending}", title, caption)
+    return Chart(about["kind"], table, about.get("axis", ""), high=about.get("high"))
 
 
 def _f1(tests: TestSet) -> Chart:
@@ -100,13 +110,11 @@ def _f1(tests: TestSet) -> Chart:
         row(one.name, *(cell(*astuple(one.figure(key))) for key in F1), kind=one.kind)
         for one in shown
     ]
-    heads = ("System", "F1", "seconds per query")
-    groups = tuple(one.configuration for one in shown)
-    return Chart("bars", _table(tests, "f1", heads, rows), groups=groups)
+    return replace(_chart(tests, "f1", rows), groups=tuple(one.heading for one in shown))
 
 
 def _matrix(
-    tests: TestSet, kind: str, heads: Sequence[str], counts: Counts, **values: object
+    tests: TestSet, name: str, heads: Sequence[str], counts: Counts, **values: object
 ) -> Chart:
     """Rows of counts, shaded."""
     largest = max((count or 0 for of_row in counts.values() for count in of_row), default=0) or 1
@@ -117,10 +125,10 @@ def _matrix(
         return Cell(str(count), heat=-(-HEATS * count // largest), bounds=(count, None, None))
 
     rows = [
-        row(name, *map(shaded, of_row), kind="published" if "(published" in name else "measured")
-        for name, of_row in counts.items()
+        row(one, *map(shaded, of_row), kind="published" if "(published" in one else "measured")
+        for one, of_row in counts.items()
     ]
-    return Chart("matrix", _table(tests, kind, heads, rows, **values))
+    return _chart(tests, name, rows, heads, **values)
 
 
 def _failures(tests: TestSet) -> Chart:
@@ -155,28 +163,21 @@ def _seconds(scores: Mapping[str, Record]) -> dict[str, float]:
     return {name: value for name, value in timed.items() if isinstance(value, int | float)}
 
 
-def _latency(tests: TestSet) -> Chart:
-    rows = []
+def _latency(tests: TestSet) -> Rows:
     for system in tests.results.rows:
         if seconds := list(_seconds(tests.scores.get(system.key, {})).values()):
             cells = (cell(quantile(seconds, share).value) for _name, share in QUANTILES)
-            rows.append(row(system.name, *cells, f"n = {len(seconds)}"))
-    heads = ("System", *(name for name, _share in QUANTILES), "samples")
-    return Chart("dots", _table(tests, "latency", heads, rows), "seconds")
+            yield row(system.name, *cells, f"n = {len(seconds)}")
 
 
-def _planning(tests: TestSet) -> Chart:
-    rows = []
+def _planning(tests: TestSet) -> Rows:
     for system in tests.results.rows:
         for entry in system.costs.get("planning") or []:
             seconds = cell(*(entry["seconds"][key] for key in ("value", "low", "high")))
-            rows.append(row(system.name, cell(entry["tasks"]), seconds, str(entry["n"])))
-    heads = ("Line", "tasks in the plan", "seconds", "samples")
-    return Chart("lines", _table(tests, "planning", heads, rows))
+            yield row(system.name, cell(entry["tasks"]), seconds, str(entry["n"]))
 
 
-def _latency_by_size(tests: TestSet) -> Chart:
-    rows = []
+def _latency_by_size(tests: TestSet) -> Rows:
     for system in tests.results.rows:
         timed: dict[int, list[float]] = {}
         for name, seconds in _seconds(tests.scores.get(system.key, {})).items():
@@ -186,45 +187,44 @@ def _latency_by_size(tests: TestSet) -> Chart:
         for size, values in sorted(timed.items()):
             reach = (min(values), max(values)) if len(values) > 1 else ()
             mean = cell(float(np.mean(values)), *reach)
-            rows.append(row(system.name, cell(size), mean, str(len(values))))
-    unit = LEVELS[tests.level]["unit"]
-    heads = ("Line", f"{unit} in the expected plan", "seconds", "samples")
-    return Chart("lines", _table(tests, "latency-by-size", heads, rows))
+            yield row(system.name, cell(size), mean, str(len(values)))
 
 
-def _reliability(tests: TestSet) -> Chart:
-    rows = [
-        row(system.name, cell(held), cell(share), str(n))
-        for system in tests.results.rows
-        for held, share, n in system.breakdown.get("confidence", {}).get("bins") or ()
-    ]
-    rows += [row("as sure as right", cell(at), cell(at), NOTHING) for at in (0, 1) if rows]
-    heads = ("Line", "confidence", "share of right plans", "plans")
-    return Chart("lines", _table(tests, "reliability", heads, rows))
+def _reliability(tests: TestSet) -> Rows:
+    known = [one for one in tests.results.rows if one.breakdown.get("confidence", {}).get("bins")]
+    for system in known:
+        for held, share, n in system.breakdown["confidence"]["bins"]:
+            yield row(system.name, cell(held), cell(share), str(n))
+    for at in (0, 1) if known else ():
+        yield row("as sure as right", cell(at), cell(at), NOTHING)
 
 
-def _risk_coverage(tests: TestSet) -> Chart:
-    rows = []
+def _risk_coverage(tests: TestSet) -> Rows:
     for system in tests.results.rows:
         found = system.breakdown.get("confidence", {})
-        curve, n = found.get("curve") or [], found.get("n")
-        shown = range(0, len(curve), -(-len(curve) // POINTS) or 1)
-        rows += [row(system.name, cell((at + 1) / n), cell(curve[at]), str(at + 1)) for at in shown]
-        label, risk = f"{system.name}, random order", found.get("aurc_random")
-        rows += [row(label, cell(at), cell(risk), NOTHING) for at in (0, 1) if curve]
-    heads = ("Line", "share of plans, the surest first", "share of wrong plans", "plans")
-    return Chart("lines", _table(tests, "risk-coverage", heads, rows))
+        curve = found.get("curve") or []
+        for at in range(0, len(curve), -(-len(curve) // POINTS) or 1):
+            yield row(system.name, cell((at + 1) / found["n"]), cell(curve[at]), str(at + 1))
+        for at in (0, 1) if curve else ():
+            risk = cell(found.get("aurc_random"))
+            yield row(f"{system.name}, random order", cell(at), risk, NOTHING)
 
 
-def _names(tests: TestSet, system: Row) -> Chart:
+POINTS_OF: dict[str, Callable[[TestSet], Rows]] = {
+    "reliability": _reliability,
+    "risk-coverage": _risk_coverage,
+    "latency": _latency,
+    "planning": _planning,
+    "latency-by-size": _latency_by_size,
+}
+
+
+def _names(system: Row) -> Rows:
     found = system.breakdown.get("per_name") or []
-    rows = []
     for line in sorted(found, key=lambda line: (-line["expected"], str(line["name"]))):
         right, planned, expected = (line[key] for key in ("right", "predicted", "expected"))
         shares = (cell(right / of if of else None) for of in (planned, expected))
-        rows.append(row(str(line["name"]), *shares, f"{right} / {planned} / {expected}"))
-    heads = ("Name", "precision", "recall", "right / planned / expected")
-    return Chart("dots", _table(tests, "names", heads, rows, system=system.name), "share", high=1.0)
+        yield row(str(line["name"]), *shares, f"{right} / {planned} / {expected}")
 
 
 def _substitutions(tests: TestSet, system: Row) -> Chart:

@@ -2,7 +2,8 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC, METRICS, RIGHT, SECTIONS
 from planner_ft.benchmark.contrasts import baseline_sentences, contrast_notes, legend
@@ -11,7 +12,7 @@ from planner_ft.benchmark.layout import notes as table_notes
 from planner_ft.benchmark.paired import p_text
 from planner_ft.benchmark.results import Results, Row, heading
 from planner_ft.benchmark.tables import cost_tables, detail_tables, group_tables
-from planner_ft.report.charts import Chart, charts, slug, system_charts
+from planner_ft.report.charts import charts, slug, system_charts
 from planner_ft.report.runs import TestSet
 from planner_ft.support.tables import Cell, Table, row
 
@@ -20,39 +21,14 @@ MAIN += ("schema_valid", "strict_valid", "latency_s", "tokens")
 """The first table: the published five, and the metrics that show whether a plan is right."""
 
 
-@dataclass(frozen=True)
-class Section:
-    """Everything about one test set. `summary` are sentences under the names of their subjects,
-    `per_system` charts of one system each, `extra` the tables that stand open.
+def section(tests: TestSet) -> dict[str, Any]:
+    """The content of a test set's section: `summary` are sentences under the names of their
+    subjects, `extra` the tables that stand open, `per_system` charts of one system each; `tables`
+    and `figures` are all of them in the order of the page.
     """
-
-    tests: TestSet
-    summary: tuple[tuple[str, str], ...]
-    main: Table
-    legend: str
-    extra: tuple[Table, ...]
-    differences: tuple[Table, ...]
-    all_metrics: tuple[Table, ...]
-    charts: tuple[Chart, ...]
-    per_system: tuple[tuple[str, tuple[Chart, ...]], ...]
-    notes: tuple[str, ...]
-
-    @property
-    def tables(self) -> tuple[Table, ...]:
-        """Every table, in the order of the page."""
-        return (self.main, *self.extra, *self.differences, *self.all_metrics)
-
-    @property
-    def figures(self) -> tuple[Chart, ...]:
-        """Every chart, in the order of the page."""
-        return (*self.charts, *(chart for _name, charts in self.per_system for chart in charts))
-
-
-def section(tests: TestSet) -> Section:
-    """The content of a test set's section."""
     results, shown = tests.results, lines(tests.results, beside=tests.beside)
     ours = [line for line in shown if line.kind != "published"]
-    of_systems = [(one.name, tuple(system_charts(tests, one))) for one in results.rows]
+    of_systems = [(one.name, system_charts(tests, one)) for one in results.rows]
     taken = Counter[str]()
 
     def named(table: Table, name: str = "", title: str = "", caption: str = "") -> Table:
@@ -72,20 +48,25 @@ def section(tests: TestSet) -> Section:
     details = [metric_table(names, ours, corner=title) for title, names in rest]
     shown_before = {table.corner for table in extra}
     details += [one for one in detail_tables(results) if one.corner not in shown_before]
-    compared, said = _differences(results), set(contrast_notes(results.contrasts))
+    said = set(contrast_notes(results.contrasts))
     notes = [note for note in table_notes(results) if note not in said]
-    return Section(
-        tests,
-        summary=tuple(_summary(tests)),
-        main=named(metric_table(MAIN, shown), "main", "Systems", brackets),
-        legend=" ".join(legend(results.contrasts)),
-        extra=tuple(extra),
-        differences=tuple(named(one, "differences", "Differences") for one in compared),
-        all_metrics=tuple(map(named, details)),
-        charts=tuple(charts(tests)),
-        per_system=tuple((name, of_system) for name, of_system in of_systems if of_system),
-        notes=tuple(dict.fromkeys([*notes, *tests.notes])),
-    )
+    main = named(metric_table(MAIN, shown), "main", "Systems", brackets)
+    compared = [named(one, "differences", "Differences") for one in _differences(results)]
+    all_metrics, overall = list(map(named, details)), charts(tests)
+    return {
+        "tests": tests,
+        "summary": list(_summary(tests)),
+        "main": main,
+        "legend": " ".join(legend(results.contrasts)),
+        "extra": extra,
+        "differences": compared,
+        "all_metrics": all_metrics,
+        "tables": [main, *extra, *compared, *all_metrics],
+        "charts": overall,
+        "per_system": [(name, found) for name, found in of_systems if found],
+        "figures": [*overall, *(chart for _name, found in of_systems for chart in found)],
+        "notes": list(dict.fromkeys([*notes, *tests.notes])),
+    }
 
 
 def _summary(tests: TestSet) -> Iterator[tuple[str, str]]:

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.curve import SHOWN, Point
-from planner_ft.report.charts import WORDS, Chart, cell
+from planner_ft.report.charts import FIGURES, Chart, cell
 from planner_ft.support.files import atomic_writer
 from planner_ft.support.tables import NOTHING, Bounds, Cell, Table, TableRow, printable
 
@@ -254,7 +254,7 @@ def write_figure(points: Sequence[Point], what: str, out: Path) -> list[Path]:
         for point in points
         for figure in [cell(*astuple(point.metrics[name]))]
     ]
-    words = WORDS["learning-curve"]
+    words = FIGURES["learning-curve"]
     heads = (f"{what} trained on", "share", "")
     table = Table("Line", heads, rows, name="learning-curve", **words)
     return list(saved(Chart("lines", table), out))

@@ -43,8 +43,7 @@ class Run:
         """The run with an ending behind the names of its candidates."""
 
         def named(row: Row) -> Row:
-            label, candidate = row.system.label + ending, row.system.candidate + ending
-            return replace(row, system=replace(row.system, label=label, candidate=candidate))
+            return replace(row, label=row.label + ending, candidate=row.candidate + ending)
 
         def of_systems(values: dict[str, Any]) -> dict[str, Any]:
             parts = ((*key.rpartition(" ")[::2], value) for key, value in values.items())

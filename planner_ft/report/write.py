@@ -18,10 +18,10 @@ from markupsafe import Markup
 
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.layout import metric_table
-from planner_ft.benchmark.results import Row, heading
+from planner_ft.benchmark.results import Row
 from planner_ft.candidates.adapters import MANIFEST, WEIGHTS, adapter_sha256
 from planner_ft.report.answers import index, parts, script_json
-from planner_ft.report.contents import MAIN, Section, failure_words, section
+from planner_ft.report.contents import MAIN, failure_words, section
 from planner_ft.report.pictures import NARROW, WIDE, inline_svg, saved
 from planner_ft.report.runs import TestSet, load_test_sets, within
 from planner_ft.support.errors import PlannerError
@@ -32,6 +32,7 @@ from planner_ft.support.templates import environment
 if TYPE_CHECKING:
     from jinja2 import Environment
 
+Content = dict[str, Any]  # of a test set's section
 PICTURES = ("all", "overall", "none")
 PAGE, FIGURES, TABLES = "report.html", "figures", "tables"
 WRITTEN = re.compile(r"(mission|task)-.*-[0-9a-f]{6}-.*\.(png|svg|md|csv|tex)")
@@ -82,20 +83,20 @@ def report_beside(folder: Path) -> str:
     return f"{folder / PAGE}: tables, figures and every sample; {more}"
 
 
-def _tables(sections: Sequence[Section], out: Path) -> Iterator[Path]:
-    every = [table for one in sections for table in one.tables]
-    every += [one.table for part in sections for one in part.figures if one.kind == "matrix"]
+def _tables(sections: Sequence[Content], out: Path) -> Iterator[Path]:
+    every = [table for one in sections for table in one["tables"]]
+    every += [one.table for part in sections for one in part["figures"] if one.kind == "matrix"]
     for table, (suffix, writer) in itertools.product(every, WRITERS.items()):
         path = out / TABLES / f"{table.name}.{suffix}"
         write_text(path, writer(table))
         yield path
 
 
-def _figures(sections: Sequence[Section], out: Path, pictures: str) -> Iterator[Path]:
+def _figures(sections: Sequence[Content], out: Path, pictures: str) -> Iterator[Path]:
     if pictures == "none":
         return
     for one in sections:
-        for chart in one.figures if pictures == "all" else one.charts:
+        for chart in one["figures" if pictures == "all" else "charts"]:
             yield from saved(chart, out / FIGURES)
 
 
@@ -103,7 +104,7 @@ ASSETS = Path(__file__).parent / "assets"
 CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z][a-z])")
 
 
-def page(sections: Sequence[Section], title: str) -> str:
+def page(sections: Sequence[Content], title: str) -> str:
     """The whole document; its policy allows this style sheet and this script, and no loading."""
     style, script = ((ASSETS / f"report.{kind}").read_text("utf-8") for kind in ("css", "js"))
     policy = f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)};"
@@ -185,7 +186,7 @@ def _eval_results(tests: TestSet, row: Row) -> Iterator[Any]:
                 metric_type=name,
                 metric_name=METRIC[name].heading.removesuffix(" (%)") if name in METRIC else name,
                 metric_value=figure.value,
-                metric_config=row.system.configuration,
+                metric_config=row.configuration,
                 metric_args=None if figure.low is None else interval,
                 verified=False,
             )
@@ -204,7 +205,7 @@ def _section(measured: Sequence[Measured]) -> str:
         for row in rows:
             kinds = failure_words(row)
             words = f"wrong answers by kind: {kinds}." if kinds else "no wrong answer."
-            limits.append(f"- {heading(row.system.configuration)}: {words}")
+            limits.append(f"- {row.heading}: {words}")
         parts.append(markdown_table(table) + "\n".join(limits))
     return "\n\n".join(parts)
 

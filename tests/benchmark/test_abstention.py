@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from planner_ft.benchmark.figures import worst_cases
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
-from planner_ft.benchmark.summary import worst_cases
 from planner_ft.vocabulary import load_vocabulary
 
 SOME: dict[str, Any] = {"tasks": [{"title": "Transit", "parameters": {}}]}

@@ -206,8 +206,8 @@ def results(tmp_path: Path) -> Results:
 
 
 def test_baselines_are_rows_of_their_own(results: Results, tmp_path: Path) -> None:
-    assert [row.system.candidate for row in results.rows] == ["good", "good", "fair"]
-    assert [(row.system.candidate, row.to_json()["is_baseline"]) for row in results.baselines] == [
+    assert [row.candidate for row in results.rows] == ["good", "good", "fair"]
+    assert [(row.candidate, row.to_json()["is_baseline"]) for row in results.baselines] == [
         ("majority plan", True),
         ("nearest neighbour", True),
     ]

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.contrasts import changes
-from planner_ft.benchmark.summary import group_figures
+from planner_ft.benchmark.figures import group_figures
 from planner_ft.benchmark.tables import change_tables, group_tables
 from planner_ft.support.tables import markdown_table
 

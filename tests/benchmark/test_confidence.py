@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.breakdown import confidence_figures
 from planner_ft.benchmark.calibrate import LEAST, fitted
+from planner_ft.benchmark.figures import confidence_figures
 from planner_ft.benchmark.samples import BenchData, Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.support.errors import PlannerError

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from planner_ft.benchmark.figures import cost_figures
 from planner_ft.benchmark.runner import MOST, planning_command
 from planner_ft.benchmark.statistics import quantile
-from planner_ft.benchmark.summary import cost_figures
 from planner_ft.benchmark.tables import cost_tables
 from planner_ft.support.tables import markdown_table
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import itertools
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import plan_entries
-from planner_ft.benchmark.metrics.facts import Groundedness, groundedness
+from planner_ft.benchmark.metrics.facts import Given, groundedness
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.facts import read_input
@@ -21,8 +21,16 @@ USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
 DATA = Path(__file__).parents[2] / "data" / "mission"
 
 
+class Groundedness(NamedTuple):
+    """Values that can be judged, and those of them that nobody gave."""
+
+    judged: int
+    ungrounded: list[Given]
+
+
 def judged(level: Level, record: dict[str, Any], plan: Any, vocabulary: Any = USV) -> Groundedness:
-    return groundedness(plan_entries(level, plan), read_input(record, vocabulary), vocabulary)
+    source = read_input(record, vocabulary)
+    return Groundedness(*groundedness(plan_entries(level, plan), source, vocabulary))
 
 
 def mission(prompt: str, title: str, vocabulary: Any = USV, **parameters: Any) -> list[str]:
@@ -152,7 +160,7 @@ def goto(x: float, y: float) -> tuple[str, dict[str, Any]]:
 
 def test_waypoints_that_follow_from_a_grid_are_given_and_others_are_not() -> None:
     lanes = [(0, 15), (0, 25), (10, 25), (10, 15), (20, 15), (20, 25)]
-    assert judged("task", GRID, steps(*(goto(*place) for place in lanes))) == Groundedness(6, ())
+    assert judged("task", GRID, steps(*(goto(*place) for place in lanes))) == Groundedness(6, [])
     found = judged("task", GRID, steps(goto(0, 15), goto(5, 25)))
     assert [given.value for given in found.ungrounded] == [[5, 25]]
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from planner_ft.benchmark.metrics.alignment import plan_entries
+from planner_ft.benchmark.metrics.alignment import Entries, plan_entries
 from planner_ft.benchmark.metrics.failures import Answer, whole_plan_unordered
 from planner_ft.benchmark.metrics.names import (
     Counts,
     common_subsequence,
-    counts_by_name,
-    counts_by_role,
+    counts_by,
     edge_f1,
     edit_distance,
     multiset_counts,
@@ -21,6 +20,10 @@ from planner_ft.vocabulary import load_vocabulary
 from .plans import mission, step, steps
 
 USV = load_vocabulary()
+
+
+def titled(*names: str) -> Entries:
+    return plan_entries("mission", {"tasks": [{"title": name} for name in names]})
 
 
 def test_a_set_drops_repetitions_and_a_multiset_counts_them() -> None:
@@ -36,7 +39,8 @@ def test_a_name_outside_the_vocabulary_is_a_false_positive() -> None:
     nothing.
     """
     assert set_counts(["A", "Invented"], ["A"]).precision == 0.5
-    assert counts_by_name(["A", "Invented"], ["A"])["Invented"] == Counts(0, 1, 0)
+    found = counts_by("name", titled("A", "Invented"), titled("A"))
+    assert found["Invented"] == Counts(0, 1, 0)
 
 
 def test_nothing_predicted_is_no_success_unless_nothing_is_expected() -> None:
@@ -51,7 +55,7 @@ def test_nothing_predicted_is_no_success_unless_nothing_is_expected() -> None:
 
 
 def test_per_name_and_per_role() -> None:
-    assert counts_by_name(["T", "T", "B"], ["T", "A"]) == {
+    assert counts_by("name", titled("T", "T", "B"), titled("T", "A")) == {
         "T": Counts(1, 2, 1),
         "A": Counts(0, 0, 1),
         "B": Counts(0, 1, 0),
@@ -62,7 +66,7 @@ def test_per_name_and_per_role() -> None:
     predicted = plan_entries(
         "task", steps(step("StationKeep", perception=("DetectObjects", "LockHeading")))
     )
-    assert counts_by_role(predicted, expected) == {
+    assert counts_by("role", predicted, expected) == {
         "navigation": Counts(1, 1, 1),
         "filter": Counts(0, 0, 1),
         "perception": Counts(1, 2, 1),

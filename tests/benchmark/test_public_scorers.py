@@ -12,10 +12,11 @@ from rapidfuzz.distance import LCSseq, Levenshtein
 from sklearn.metrics import f1_score, precision_recall_fscore_support
 from sklearn.preprocessing import MultiLabelBinarizer
 
+from planner_ft.benchmark.metrics.alignment import Entries, plan_entries
 from planner_ft.benchmark.metrics.names import (
     Counts,
     common_subsequence,
-    counts_by_name,
+    counts_by,
     edit_distance,
     set_counts,
 )
@@ -36,6 +37,10 @@ def lists(seed: int, count: int = 200, most: int = 6) -> list[tuple[list[str], l
 
 
 PAIRS = lists(0)
+
+
+def titled(names: list[str]) -> Entries:
+    return plan_entries("mission", {"tasks": [{"title": name} for name in names]})
 
 
 def test_set_f1_is_the_samples_average_of_scikit_learn() -> None:
@@ -100,7 +105,7 @@ def test_per_name_figures_are_those_of_scikit_learn_over_occurrences() -> None:
         precision, recall, f1, _support = precision_recall_fscore_support(
             expected[:, columns].ravel(), predicted[:, columns].ravel(), zero_division=0
         )
-        found = [counts_by_name(*pair).get(name, Counts(0, 0, 0)) for pair in PAIRS]
+        found = [counts_by("name", *map(titled, pair)).get(name, Counts(0, 0, 0)) for pair in PAIRS]
         ours = Counts(
             sum(entry.right for entry in found),
             sum(entry.predicted for entry in found),

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
+from planner_ft.benchmark.figures import all_of, any_of, pass_figures
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.submission import score_predictions, score_run
-from planner_ft.benchmark.summary import all_of, any_of, pass_figures
 from planner_ft.benchmark.tables import repeat_tables
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.tables import markdown_table

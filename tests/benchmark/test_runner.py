@@ -243,7 +243,7 @@ def test_a_candidate_pretrained_on_the_vocabulary_is_not_told_it(
                 out=out,
             )
         )
-        assert results.rows[0].system.with_vocabulary is (vocabulary == "inspection_drone")
+        assert results.rows[0].with_vocabulary is (vocabulary == "inspection_drone")
 
 
 def test_base_answers_are_those_of_the_bare_model(settings: Any, tmp_path: Path) -> None:
@@ -413,8 +413,8 @@ def test_every_published_candidate_runs_at_both_levels(
             limit=2,
         )
     )
-    assert [row.system.candidate for row in results.rows] == list(names)
-    assert all(row.system.is_standin and row.n == 2 for row in results.rows)
+    assert [row.candidate for row in results.rows] == list(names)
+    assert all(row.is_standin and row.n == 2 for row in results.rows)
     if level == "task":
         # An answer that does not parse is no hallucination in the published table of this level.
         assert all(

@@ -8,12 +8,12 @@ import copy
 import json
 from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries
-from planner_ft.benchmark.metrics.facts import Reached, given_values, slot_propagation
+from planner_ft.benchmark.metrics.facts import given_values, slot_propagation
 from planner_ft.facts import read_input
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import Level
@@ -49,9 +49,18 @@ RECORD = {"prompt": PROMPT, "expected": EXPECTED}
 ALL = Counter(coordinates=2, lengths=1, speeds=1, names=1, durations=1)
 
 
+class Reached(NamedTuple):
+    """Slots by kind."""
+
+    stated: Counter[str]
+    in_parameters: Counter[str]
+    in_prompt: Counter[str]
+
+
 def follow(plan: Any, level: Level = "mission", record: dict[str, Any] = RECORD) -> Reached:
     pairs = align(plan_entries(level, record["expected"]), plan_entries(level, plan), USV)
-    return slot_propagation(plan, pairs, read_input(record, USV), USV)
+    found = slot_propagation(plan, pairs, read_input(record, USV), USV)
+    return Reached(*(+Counter({kind: n[at] for kind, n in found.items()}) for at in range(3)))
 
 
 def changed(index: int, **task: Any) -> dict[str, Any]:

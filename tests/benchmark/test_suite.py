@@ -283,7 +283,7 @@ def test_weights_and_adapters_that_are_missing_cost_only_their_own_rows(
     assert set(reasons) == {(FIRST, "lora"), ("org/nowhere", "base"), ("org/nowhere", "lora")}
     assert "no such adapter folder" in reasons[FIRST, "lora"]
     assert "not on this machine" in reasons["org/nowhere", "base"]
-    assert [row.system.configuration for row in parts[0].results.rows] == ["base"]
+    assert [row.configuration for row in parts[0].results.rows] == ["base"]
 
 
 @pytest.mark.parametrize("after", [1, 2, 3, 4, 6, 8])
@@ -461,4 +461,4 @@ def test_a_suite_runs_in_real_processes(suite_file: Path, tmp_path: Path, models
     )
     assert not part.failed, part.failed
     assert [row.n for row in part.results.rows] == [1]
-    assert part.results.rows[0].system.is_standin
+    assert part.results.rows[0].is_standin

@@ -37,7 +37,15 @@ def results(
         1,
     )
     rows = tuple(
-        Row(system, 25, figures, failures, {"length": 2, "stop": 23}, latency_n=25, **changes)
+        Row(
+            **vars(system),
+            n=25,
+            metrics=figures,
+            failures=failures,
+            finish_reasons={"length": 2, "stop": 23},
+            latency_n=25,
+            **changes,
+        )
         for system in systems
     )
     return Results(

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from planner_ft.benchmark.folder import write_results
 from planner_ft.benchmark.metrics.failures import FAILURES
-from planner_ft.benchmark.results import Results, Row, System
+from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.benchmark.submission import score_predictions
 from planner_ft.cli.app import app
@@ -117,12 +117,8 @@ def test_a_failing_report_is_said_and_loses_nothing(run: Path) -> None:
 def test_bench_writes_a_report_beside_its_results(
     run: Path, monkeypatch: pytest.MonkeyPatch, flags: list[str]
 ) -> None:
-    row = System("good", "base", "good")
-    results = Results(
-        "mission",
-        {"path": "d.jsonl", "sha256": "0" * 64, "n": 4},
-        (Row(row, 4, {}, dict.fromkeys(FAILURES, 0), {}),),
-    )
+    row = Row("good", "base", "good", n=4, failures=dict.fromkeys(FAILURES, 0))
+    results = Results("mission", {"path": "d.jsonl", "sha256": "0" * 64, "n": 4}, (row,))
     monkeypatch.setattr("planner_ft.benchmark.runner.run_bench", lambda *_arguments: results)
     monkeypatch.setattr(
         "planner_ft.report.pictures.picture", lambda _chart: {}

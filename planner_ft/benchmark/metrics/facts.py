@@ -15,14 +15,12 @@ Values are judged by `planner_ft.facts`, which the decoding strength `grounded` 
 well: the groundedness of `+grounded` configurations is 100 % by construction.
 """
 
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from planner_ft import facts
-from planner_ft.benchmark.metrics.alignment import TASK, Alignment, Entries
-from planner_ft.benchmark.metrics.values import values_agree
+from planner_ft.benchmark.metrics.alignment import TASK, Alignment, Entries, values_agree
 from planner_ft.vocabulary import Parameter, Vocabulary
 
 KINDS = ("coordinates", "lengths", "durations", "speeds", "angles", "numbers", "names")
@@ -38,33 +36,24 @@ class Given:
     value: Any
 
 
-@dataclass(frozen=True)
-class Groundedness:
-    """Values of an answer that could be judged, and those of them that nobody gave."""
-
-    judged: int
-    ungrounded: tuple[Given, ...]
+Slots = dict[str, list[int]]
+"""Per kind of slot, how many are stated, reached the parameters and (missions) the task prompt."""
 
 
-@dataclass(frozen=True)
-class Reached:
-    """Per kind of slot, how many are stated, reached the parameters and (missions) the prompt."""
-
-    stated: Counter[str]
-    in_parameters: Counter[str]
-    in_prompt: Counter[str]
-
-
-def groundedness(entries: Entries, source: facts.Input, vocabulary: Vocabulary) -> Groundedness:
-    """Judge the values of a plan's entries; where the input cannot be read with certainty, none."""
-    judged, ungrounded, before = 0, [], list[tuple[float, float]]()
+def groundedness(
+    entries: Entries, source: facts.Input, vocabulary: Vocabulary
+) -> tuple[int, list[Given]]:
+    """How many values of a plan's entries can be judged, and those of them that nobody gave; where
+    the input cannot be read with certainty, none.
+    """
+    judged, ungrounded, before = 0, list[Given](), list[tuple[float, float]]()
     for given in given_values(entries, vocabulary):
         verdict = source.evidence(given.value, given.parameter, facts.SCORING, before).given
         judged += verdict is not None
         ungrounded += [given] if verdict is False else []
         if given.parameter is facts.WAYPOINT:
             before.append((given.value[0], given.value[1]))
-    return Groundedness(judged, tuple(ungrounded))
+    return judged, ungrounded
 
 
 def given_values(entries: Entries, vocabulary: Vocabulary) -> Iterator[Given]:
@@ -102,30 +91,30 @@ def _slot_kind(parameter: Parameter) -> str:
 
 def slot_propagation(
     plan: Any, alignment: Alignment, source: facts.Input, vocabulary: Vocabulary
-) -> Reached:
+) -> Slots:
     """Follow every slot of the expected plan into the answer; without a partner it is lost."""
     partner = dict(alignment.pairs)
     there = {
         (given.entry, given.parameter.name): given.value
         for given in given_values(alignment.predicted, vocabulary)
     }
-    reached = Reached(Counter(), Counter(), Counter())
+    reached: Slots = {}
     for slot in given_values(alignment.expected, vocabulary):
         # Home, the unresolved location and derived waypoints are no slots.
         if not source.stated(slot.value, slot.parameter, facts.SCORING).given:
             continue
-        kind = _slot_kind(slot.parameter)
-        reached.stated[kind] += 1
+        counts = reached.setdefault(_slot_kind(slot.parameter), [0, 0, 0])
+        counts[0] += 1
         if slot.entry not in partner:
             continue
         place = partner[slot.entry], slot.parameter.name
-        reached.in_parameters[kind] += place in there and values_agree(
+        counts[1] += place in there and values_agree(
             there[place], slot.value, slot.parameter, vocabulary, loose=True
         )
         if (found := alignment.predicted[place[0]]).role == TASK:
             prompt = plan["tasks"][found.step].get("task_prompt")
-            reached.in_prompt[kind] += isinstance(prompt, str) and _says(prompt, slot)
-    return reached
+            counts[2] += isinstance(prompt, str) and _says(prompt, slot)
+    return {kind: reached[kind] for kind in KINDS if kind in reached}
 
 
 def _says(prompt: str, slot: Given) -> bool:

@@ -50,20 +50,15 @@ def multiset_counts(predicted: Iterable[str], expected: Iterable[str]) -> Counts
     return Counts((ours & theirs).total(), ours.total(), theirs.total())
 
 
-def counts_by_name(predicted: Iterable[str], expected: Iterable[str]) -> dict[str, Counts]:
-    """Occurrences of each name of either plan."""
-    ours, theirs = Counter(predicted), Counter(expected)
-    both = ours & theirs
-    return {name: Counts(both[name], ours[name], theirs[name]) for name in {**theirs, **ours}}
-
-
-def counts_by_role(predicted: Iterable[Entry], expected: Iterable[Entry]) -> dict[str, Counts]:
-    """Occurrences of names in each role: a skill in another role than its own is wrong in both."""
+def counts_by(by: str, predicted: Iterable[Entry], expected: Iterable[Entry]) -> dict[str, Counts]:
+    """Occurrences by "name", or of the names by "role": a skill in another role than its own
+    is wrong in both.
+    """
     names: dict[str, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
     for side, entries in ((1, expected), (0, predicted)):
         for entry in entries:
-            names[entry.role][side].append(entry.name)
-    return {role: multiset_counts(*both) for role, both in names.items()}
+            names[getattr(entry, by)][side].append(entry.name)
+    return {key: multiset_counts(*both) for key, both in names.items()}
 
 
 def name_sequence(level: Level, plan: dict[str, Any]) -> list[tuple[str, ...]]:

@@ -12,8 +12,7 @@ from planner_ft.benchmark.plan import SERVER_SEED
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import EndpointSettings
 from planner_ft.benchmark.sources import Fields, Timed
-from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Unanswerable
-from planner_ft.benchmark.sources.replies import Reply
+from planner_ft.benchmark.sources.chat_client import ChatClient, Rejected, Reply, Unanswerable
 from planner_ft.confidence.parts import as_json
 from planner_ft.prompts import prompt_messages
 from planner_ft.support.errors import PlannerError
