@@ -13,7 +13,7 @@ import itertools
 import time
 from typing import Any
 
-from planner_ft.benchmark.metrics.failures import Answer
+from planner_ft.benchmark.metrics.answers import Answer
 from planner_ft.benchmark.scoring import plan_logic
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks

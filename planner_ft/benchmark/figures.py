@@ -10,9 +10,8 @@ from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC, Metric
 from planner_ft.benchmark.metrics.alignment import substitutions
+from planner_ft.benchmark.metrics.answers import FAILURES, Counts, counts_by
 from planner_ft.benchmark.metrics.facts import KINDS
-from planner_ft.benchmark.metrics.failures import FAILURES
-from planner_ft.benchmark.metrics.names import Counts, counts_by
 from planner_ft.benchmark.scoring import SampleScore
 from planner_ft.benchmark.statistics import (
     Estimate,

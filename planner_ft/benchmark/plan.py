@@ -116,9 +116,12 @@ def make_plan(settings: BenchSettings) -> Plan:
         device, common["device"] = str(torch_device), f"{torch_device.type} {dtype}"
         for one in (one for one in candidates if one.name in chosen):
             adapters.check_adapter(chosen[one.name], one, level=level, vocabulary=vocabulary)
-        seen = {name: _seen(folder, data, vocabulary) for name, folder in chosen.items()}
-        known = settings, vocabulary, common, chosen, seen
-        jobs = [_job(one, how, *known) for one in candidates for how in configurations]
+        jobs = []
+        for one in candidates:
+            adapter = chosen.get(one.name)
+            seen = _seen(adapter, data, vocabulary) if adapter else 0
+            known = settings, vocabulary, common, adapter, seen
+            jobs += [_job(one, how, *known) for how in configurations]
     every = tuple(one for job in jobs for one in job.repeated(settings))
     return Plan(settings, data, vocabulary, device, every)
 
@@ -191,11 +194,11 @@ def _job(
     settings: BenchSettings,
     vocabulary: Vocabulary,
     common: Parts,
-    chosen: dict[str, Path],
-    seen: dict[str, int],
+    adapter: Path | None,
+    seen: int,
 ) -> Job:
     folder = loading.require_folder(candidate)
-    used = chosen.get(candidate.name) if configuration.adapter else None
+    used = adapter if configuration.adapter else None
     quantization = candidate.stored_as(settings.level, settings.quantization)
     parts = {
         "model": weights_sha256(folder),
@@ -209,7 +212,7 @@ def _job(
         pretrained=candidate.knows(vocabulary),
         with_vocabulary=adapters.prompt_has_vocabulary(candidate, vocabulary, used),
         adapter=str(used) if used else None,
-        seen=seen.get(candidate.name, 0) if used else 0,
+        seen=seen if used else 0,
     )
     threads = decoding_threads(candidate, str(common["device"]).split()[0])
     every = _parts(common, system, parts)

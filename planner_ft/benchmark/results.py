@@ -12,7 +12,7 @@ from planner_ft.benchmark import figures
 from planner_ft.benchmark.baselines import make_baselines
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.contrasts import Contrasts, Question, changes, contrasts, system_key
-from planner_ft.benchmark.metrics.failures import FAILURES
+from planner_ft.benchmark.metrics.answers import FAILURES
 from planner_ft.benchmark.paired import Comparison
 from planner_ft.benchmark.samples import BenchData
 from planner_ft.benchmark.scoring import score_sample

@@ -5,11 +5,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from planner_ft.benchmark.metrics import failures, names
+from planner_ft.benchmark.metrics import answers
 from planner_ft.benchmark.metrics.alignment import Alignment
+from planner_ft.benchmark.metrics.answers import Answer, Parameters, compare_parameters
 from planner_ft.benchmark.metrics.facts import groundedness, slot_propagation
-from planner_ft.benchmark.metrics.failures import Answer
-from planner_ft.benchmark.metrics.names import Parameters, compare_parameters
 from planner_ft.benchmark.samples import Sample
 from planner_ft.confidence.parts import from_json, parts
 from planner_ft.facts import read_input
@@ -60,13 +59,13 @@ def score_sample(
     prediction, timed = prediction or {}, timed or {}
     plan = parse_output(prediction.get("output")).plan
     answer = Answer(level, plan, sample.expected, vocabulary)
-    failure = failures.failure_kind(answer)
+    failure = answers.failure_kind(answer)
     logic, details = plan_logic(answer, sample.record)
     found = compare_parameters(answer.alignment, vocabulary)
     values = _published(answer) | _names(answer) | _parameters(found) | logic
     values |= {
         "whole_plan": failure is None,
-        "whole_plan_unordered": failure is None or failures.whole_plan_unordered(answer),
+        "whole_plan_unordered": failure is None or answers.whole_plan_unordered(answer),
         "tokens": prediction.get("tokens"),
         "latency_s": timed.get("latency_s"),
         "forward_passes": timed.get("forward_passes"),
@@ -118,21 +117,21 @@ def _names(answer: Answer) -> Values:
     if answer.plan is None and not answer.wanted:
         both, steps[0] = ([UNPARSED], []), [(UNPARSED,)]
     values: Values = {}
-    ways = {"": names.set_counts(*both), "multiset_": names.multiset_counts(*both)}
+    ways = {"": answers.set_counts(*both), "multiset_": answers.multiset_counts(*both)}
     for prefix, counts in ways.items():
         for key in ("f1", "precision", "recall"):
             values[f"{prefix}{key}"] = getattr(counts, key)
     if task_level:
-        by_role = names.counts_by("role", answer.given, answer.wanted)
+        by_role = answers.counts_by("role", answer.given, answer.wanted)
         for role in ROLES:
-            values |= _pooled(role, by_role.get(role, names.Counts(0, 0, 0)))
+            values |= _pooled(role, by_role.get(role, answers.Counts(0, 0, 0)))
     flat = [[name for step in sequence for name in step] for sequence in steps]
     return values | {
         "exact_sequence": answer.exact_sequence,
-        "edit_distance": names.edit_distance(*flat),
-        "step_edit_distance": names.edit_distance(*steps) if task_level else None,
-        "lcs_f1": names.common_subsequence(*flat).f1,
-        "edge_f1": names.edge_f1(*steps),
+        "edit_distance": answers.edit_distance(*flat),
+        "step_edit_distance": answers.edit_distance(*steps) if task_level else None,
+        "lcs_f1": answers.common_subsequence(*flat).f1,
+        "edge_f1": answers.edge_f1(*steps),
     }
 
 
@@ -144,7 +143,7 @@ def _parameters(found: Parameters) -> Values:
     return values
 
 
-def _pooled(prefix: str, counts: names.Counts) -> Values:
+def _pooled(prefix: str, counts: answers.Counts) -> Values:
     """The terms of an F1 over all samples (`catalogue`)."""
     size = (counts.predicted + counts.expected) / 2
     return {f"{prefix}_right": counts.right, f"{prefix}_size": size}
@@ -161,9 +160,9 @@ def plan_logic(answer: Answer, record: dict[str, Any]) -> tuple[Values, Details]
     source = read_input(record, vocabulary)
     judged, ungrounded = groundedness(answer.given, source, vocabulary)
     slots = slot_propagation(plan, answer.alignment, source, vocabulary)
-    stop = failures.executable(plan, answer.expected, vocabulary) if mission else None
+    stop = answers.executable(plan, answer.expected, vocabulary) if mission else None
     stated, in_parameters, in_prompt = (sum(n[at] for n in slots.values()) for at in range(3))
-    refused, impossible = (failures.refuses(level, one) for one in (plan, answer.expected))
+    refused, impossible = (answers.refuses(level, one) for one in (plan, answer.expected))
     values: Values = {
         "executable": stop is None if mission else None,
         "grounded": plan is not None and not ungrounded,

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from planner_ft.benchmark import layout
 from planner_ft.benchmark.catalogue import COLUMNS, MAIN, METRIC, RIGHT, SECTIONS, Columns
 from planner_ft.benchmark.contrasts import DECISIVE, Contrasts, baseline_name
-from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
+from planner_ft.benchmark.metrics.answers import FAILURES, PUBLISHED
 from planner_ft.benchmark.paired import MARKS, difference_cell, verdict
 from planner_ft.benchmark.results import Results, Row
 from planner_ft.benchmark.statistics import Estimate

@@ -13,7 +13,7 @@ import numpy as np
 
 from planner_ft.benchmark.figures import QUANTILES
 from planner_ft.benchmark.layout import lines, shows_published
-from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED
+from planner_ft.benchmark.metrics.answers import FAILURES, PUBLISHED
 from planner_ft.benchmark.results import Row
 from planner_ft.benchmark.statistics import quantile
 from planner_ft.report.runs import Record, TestSet

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.folder import write_results
-from planner_ft.benchmark.metrics.failures import FAILURES
+from planner_ft.benchmark.metrics.answers import FAILURES
 from planner_ft.benchmark.samples import load_bench_data
 from planner_ft.benchmark.submission import score_predictions
 from planner_ft.vocabulary import load_vocabulary

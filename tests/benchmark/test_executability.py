@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner_ft.benchmark.metrics.failures import executable
+from planner_ft.benchmark.metrics.answers import executable
 from planner_ft.data.missions import sample_missions
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.replay import Stop, replay

@@ -9,8 +9,15 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import align, plan_entries, values_agree
-from planner_ft.benchmark.metrics.failures import FAILURES, PUBLISHED, Answer, failure_kind
-from planner_ft.benchmark.metrics.names import Parameters, compare_parameters, set_counts
+from planner_ft.benchmark.metrics.answers import (
+    FAILURES,
+    PUBLISHED,
+    Answer,
+    Parameters,
+    compare_parameters,
+    failure_kind,
+    set_counts,
+)
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.scoring import score_sample
 from planner_ft.vocabulary import load_vocabulary

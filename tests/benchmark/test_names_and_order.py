@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import Entries, plan_entries
-from planner_ft.benchmark.metrics.failures import Answer, whole_plan_unordered
-from planner_ft.benchmark.metrics.names import (
+from planner_ft.benchmark.metrics.answers import (
+    Answer,
     Counts,
     common_subsequence,
     counts_by,
@@ -14,6 +14,7 @@ from planner_ft.benchmark.metrics.names import (
     edit_distance,
     multiset_counts,
     set_counts,
+    whole_plan_unordered,
 )
 from planner_ft.vocabulary import load_vocabulary
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.benchmark.metrics.alignment import Entry, align, plan_entries, values_agree
-from planner_ft.benchmark.metrics.names import Counts, Parameters, compare_parameters
+from planner_ft.benchmark.metrics.answers import Counts, Parameters, compare_parameters
 from planner_ft.vocabulary import Parameter, load_vocabulary
 
 from .plans import mission

@@ -13,7 +13,7 @@ from sklearn.metrics import f1_score, precision_recall_fscore_support
 from sklearn.preprocessing import MultiLabelBinarizer
 
 from planner_ft.benchmark.metrics.alignment import Entries, plan_entries
-from planner_ft.benchmark.metrics.names import (
+from planner_ft.benchmark.metrics.answers import (
     Counts,
     common_subsequence,
     counts_by,
