@@ -1,21 +1,18 @@
 """Gate and suite files (TOML): what they may hold, and the runs that they describe."""
 
-import dataclasses
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.catalogue import METRIC
 from planner_ft.benchmark.results import Results, Row
-from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.decoding.configurations import parse_configuration
 from planner_ft.support.errors import GateError, PlannerError
 from planner_ft.support.files import read_toml
-from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.plans import check_level
 
 Kind = type | list[type]  # the type of a key's value; [str] is a list of texts
@@ -98,18 +95,13 @@ def load_gate(path: Path) -> Gate:
     return Gate(path, settings, raw["thresholds"])
 
 
-def run_gate(
-    gate: Gate, out: Path, progress: Report, show: Callable[[Results], Any], **changes: Any
-) -> Results:
-    """Run the gate into `out`; `show` gets the results. Raises GateError for a low figure."""
-    results = run_bench(dataclasses.replace(gate.settings, out=out, **changes), progress)
-    show(results)
+def check_gate(gate: Gate, results: Results) -> None:
+    """Raise GateError that names the figures of the gate's run which fall short."""
     row = results.rows[0]
     found = (_shortfall(row, *threshold) for threshold in gate.thresholds.items())
     if shortfalls := [text for text in found if text]:
         where = f"{gate.path}: {row.label}, {row.configuration}"
         raise GateError(f"{where}: {'; '.join(shortfalls)}")
-    return results
 
 
 def _shortfall(row: Row, metric: str, bounds: dict[str, float]) -> str | None:

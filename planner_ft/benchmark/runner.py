@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from planner_ft.benchmark import folder
 from planner_ft.benchmark.folder import Line, RecordLog, silent
@@ -19,6 +19,7 @@ from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
 from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.benchmark.sources import EndpointSource, EngineSource
 from planner_ft.candidates.adapters import adapter_sha256, find_adapter
 from planner_ft.support.files import sha256_text
 from planner_ft.support.manifest import build_manifest
@@ -26,12 +27,7 @@ from planner_ft.support.ranks import ALONE, Ranks
 from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.plans import parse_output
 
-if TYPE_CHECKING:
-    from planner_ft.benchmark.sources.endpoint import EndpointSource
-    from planner_ft.benchmark.sources.engine import EngineSource
-
-    Source = EndpointSource | EngineSource
-
+Source = EndpointSource | EngineSource
 MOST = 10
 EASTS = (40, -35, 120, 15, -80, 70, -25, 160, -140, 5)
 NORTHS = (10, 60, -20, 95, -45, 130, -110, 55, 30, -75)
@@ -96,11 +92,7 @@ class _Run:
 def _source(plan: Plan, jobs: Sequence[Job]) -> Source:
     """What answers these jobs of one candidate, loaded. Raises PlannerError."""
     if plan.settings.endpoint is not None:
-        from planner_ft.benchmark.sources.endpoint import EndpointSource
-
         return EndpointSource(plan, jobs, plan.settings.endpoint)
-    from planner_ft.benchmark.sources.engine import EngineSource
-
     return EngineSource(plan, jobs)
 
 

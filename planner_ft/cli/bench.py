@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -227,14 +228,17 @@ def _run_suite(o: Options) -> None:
 
 
 def _run_gate(o: Options) -> None:
-    from planner_ft.benchmark.definitions import load_gate, run_gate
+    from planner_ft.benchmark.definitions import check_gate, load_gate
     from planner_ft.benchmark.folder import PREDICTIONS
+    from planner_ft.benchmark.runner import run_bench
 
     gate, common = load_gate(o.gate), o.take("device", "seed", "batch_size", *RERUN)
     with tempfile.TemporaryDirectory() as temporary:
         target = o.out or Path(temporary) / "gate"
         with working(target, PREDICTIONS, keeps=o.out is not None) as progress:
-            run_gate(gate, target, progress, lambda results: _show(results, o.out), **common)
+            results = run_bench(replace(gate.settings, out=target, **common), progress)
+            _show(results, o.out)
+            check_gate(gate, results)
     show(f"{o.gate}: passed ({', '.join(gate.thresholds)})")
 
 

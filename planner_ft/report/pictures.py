@@ -25,17 +25,12 @@ WIDE, NARROW = 860, 340
 LETTER = 7.2  # mean width of a letter at 12 pixels
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#b8a000")
 """Okabe and Ito's colours (2008), the brightest yellow darkened for white paper."""
-INK, SOFT, LINE = "#1b2128", "#55606c", "#d5dbe1"
+INK, SOFT = "#1b2128", "#55606c"
 NOT_KEPT = ("", "font", "font-family", "font-size", "clip-path")
 """Styles of a drawing that are the page's affair, or that name nothing there."""
 MARKERS = ("o", "s", "^", "D", "v")
 STYLES = ("-", "--", ":", "-.")
-SETTINGS: dict[str, Any] = {"svg.fonttype": "none", "text.parse_math": False}
-SETTINGS |= {"font.size": 12, "axes.titlesize": 12, "axes.facecolor": "none"}
-SETTINGS |= {"axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
-SETTINGS |= {"text.color": INK, "ytick.labelcolor": INK, "grid.color": LINE}
-SETTINGS |= dict.fromkeys(("axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), SOFT)
-SETTINGS["legend.frameon"] = False
+STYLE = Path(__file__).with_name("figures.mplstyle")
 
 
 def picture(chart: Chart) -> dict[str, bytes]:
@@ -86,7 +81,7 @@ def _drawn(chart: Chart, width: int, title: str = "") -> Iterator[Any]:
 
     # Ids of one drawing are those of no other.
     salt = {"svg.hashsalt": f"{chart.table.name}-{width}"}
-    with matplotlib.rc_context(SETTINGS | salt), warnings.catch_warnings():
+    with matplotlib.rc_context(salt, STYLE), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # names may hold any letters
         figure = Figure(layout="constrained")
         across, height = DRAW[chart.kind](figure, chart, width)

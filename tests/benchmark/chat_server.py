@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
-from planner_ft.benchmark.sources.endpoint import GREETING
+from planner_ft.benchmark.sources import GREETING
 
 Body = dict[str, Any]
 Act = Callable[["Handler", Body], bool]

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from planner_ft.benchmark.sources.engine import BatchSize, in_batches
+from planner_ft.benchmark.sources import BatchSize, in_batches
 from planner_ft.support.errors import PlannerError
 
 

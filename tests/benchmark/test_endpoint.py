@@ -15,7 +15,7 @@ import pytest
 
 from planner_ft.benchmark.runner import run_bench
 from planner_ft.benchmark.settings import BenchSettings, EndpointSettings
-from planner_ft.benchmark.sources.endpoint import GREETING, PROBE_ANSWER, served_schema
+from planner_ft.benchmark.sources import GREETING, PROBE_ANSWER, served_schema
 from planner_ft.cli import main
 from planner_ft.prompts import system_text
 from planner_ft.support.errors import PlannerError

@@ -19,9 +19,9 @@ from typing import Any
 
 import pytest
 
+from planner_ft.benchmark import chat_client
+from planner_ft.benchmark.chat_client import ChatClient
 from planner_ft.benchmark.settings import EndpointSettings
-from planner_ft.benchmark.sources import chat_client
-from planner_ft.benchmark.sources.chat_client import ChatClient
 from planner_ft.cli import main
 from planner_ft.support.errors import PlannerError
 
