@@ -185,40 +185,32 @@ def breakdown(scores: Sequence[SampleScore]) -> Figures:
     """
     families = [score.family for score in scores]
     pairs = [(score.alignment.predicted, score.alignment.expected) for score in scores]
-    parts = ["name"]
-    parts += ["role"] if any("navigation_size" in score.values for score in scores) else []
+    parts = ["name", *(["role"] if any("navigation_size" in one.values for one in scores) else [])]
+    types = [
+        {"type": kind, "expected": sum(of), "right": sum(right)}
+        | {"share": clustered_rate(right, families, of).to_json()}
+        for kind, (right, of) in _columns([score.types for score in scores], (0, 0))
+    ]
     replaced = Counter(pair for score in scores for pair in substitutions(score.alignment))
     frequent = sorted(replaced.items(), key=lambda one: (-one[1], *(name or "" for name in one[0])))
     failed = {
         kind: list(dict.fromkeys(score.id for score in scores if score.failure == kind))[:SHOWN]
         for kind in FAILURES
     }
-    types = _columns([score.types for score in scores], (0, 0))
-    slots = _columns([score.details.get("slots", {}) for score in scores], (0, 0, 0))
+    slots = dict(_columns([score.details.get("slots", {}) for score in scores], (0, 0, 0)))
     ungrounded = [score.id for score in scores if score.details.get("ungrounded")]
-    return {
-        **{
-            f"per_{by}": _per(by, [counts_by(by, *pair) for pair in pairs], families)
-            for by in parts
-        },
-        "per_type": _most_expected(
-            "type",
-            (
-                {"type": kind, "expected": sum(of), "right": sum(right)}
-                | {"share": clustered_rate(right, families, of).to_json()}
-                for kind, (right, of) in types
-            ),
-        ),
+    found = {
+        f"per_{by}": _per(by, [counts_by(by, *pair) for pair in pairs], families) for by in parts
+    }
+    return found | {
+        "per_type": _most_expected("type", types),
         "substitutions": [
             {"expected": expected, "predicted": predicted, "n": count}
             for (expected, predicted), count in frequent
         ],
         "failure_examples": {kind: ids for kind, ids in failed.items() if ids},
         "stops": _stops(scores),
-        "slots": [
-            _slot(kind, families, *counts)
-            for kind, counts in sorted(slots, key=lambda one: KINDS.index(one[0]))
-        ],
+        "slots": [_slot(kind, families, *slots[kind]) for kind in KINDS if kind in slots],
         "ungrounded_examples": ungrounded[:SHOWN],
         **_confidence(scores),
     }
@@ -247,9 +239,8 @@ def _per(
         # With J the share of right ones among all that were expected or predicted (Jaccard 1912),
         # F1 is 2 J / (1 + J), which grows with J: its bounds hold for names seen once, too.
         counts = zip(right, predicted, expected, strict=True)
-        either = clustered_rate(
-            right, families, [ours + theirs - both for both, ours, theirs in counts]
-        )
+        every = [ours + theirs - both for both, ours, theirs in counts]
+        either = clustered_rate(right, families, every)
         f1 = {key: None if j is None else 2 * j / (1 + j) for key, j in either.to_json().items()}
         line = {by: name, "expected": sum(expected), "predicted": sum(predicted)}
         line |= {"right": sum(right), "samples": sum(map(bool, expected))}

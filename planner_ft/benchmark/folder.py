@@ -9,8 +9,10 @@ so that it can be gone on with, refused, or scored again without any model.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import os
+from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -82,28 +84,26 @@ class RecordLog(contextlib.AbstractContextManager["RecordLog"]):
         self.stream.seek(0)
         self.stream.truncate(self.stream.read().rfind(b"\n") + 1)
         self.stream.seek(0, os.SEEK_END)
-        self.records: dict[tuple[str, str], Line] = {}
+        self.records = defaultdict[str, dict[str, Line]](dict)  # by key and id
         self.read()
 
     def read(self) -> None:
         """Read the records again, those of other processes, too."""
+        way = "remove the line, or start with --overwrite"
         try:
-            for record in _checked(
-                self.path, _record_problem, "remove the line, or start with --overwrite"
-            ):
-                self.records[record["key"], record["id"]] = record
+            for record in _checked(self.path, _record_problem, way):
+                self.records[record["key"]][record["id"]] = record
         except PlannerError:
             self.close()
             raise
 
     def of_key(self, key: str) -> dict[str, Line]:
         """The records of a key by sample id."""
-        return {sample: record for (known, sample), record in self.records.items() if known == key}
+        return self.records.get(key, {})
 
     def missing(self, key: str, names: Iterable[str]) -> list[str]:
         """Those of the sample ids that have no record of the key."""
-        done = self.of_key(key)
-        return [name for name in names if name not in done]
+        return [name for name in names if name not in self.of_key(key)]
 
     def fill(
         self, key: str, made: Iterable[Line], report: Report, label: str, left: int, total: int
@@ -118,7 +118,7 @@ class RecordLog(contextlib.AbstractContextManager["RecordLog"]):
         """Raise PlannerError for records of a system ("candidate configuration") with keys beside
         its own: they were made with something else.
         """
-        for record in self.records.values():
+        for record in itertools.chain(*map(dict.values, self.records.values())):
             name = f"{record.get('candidate')} {record.get('configuration')}"
             if record["key"] not in keys.get(name, {record["key"]}):
                 what = f"holds answers of {name} that are not of this run"
@@ -126,7 +126,7 @@ class RecordLog(contextlib.AbstractContextManager["RecordLog"]):
 
     def append(self, record: Line) -> None:
         """Write a record as one line, whole, at the end of the file."""
-        self.records[record["key"], record["id"]] = record
+        self.records[record["key"]][record["id"]] = record
         with files.writing(self.path, "free some space and run the command again with --resume"):
             line = f"{files.compact_json(record)}\n".encode()
             while line:

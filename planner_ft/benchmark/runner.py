@@ -133,7 +133,7 @@ def run_bench(settings: BenchSettings, progress: Report = silent, ranks: Ranks =
         RecordLog(out / folder.LATENCY) as latencies,
     ):
         folder.begin_run(plan, predictions)
-        reused = len(predictions.records)
+        reused = sum(map(len, predictions.records.values()))
         ranks.wait()
         # The others read the answers that are there: every share is cut from the same list.
         ranks.wait()
