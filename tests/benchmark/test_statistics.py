@@ -102,6 +102,12 @@ def test_nothing_wrong_in_families_is_as_sure_as_in_as_many_samples() -> None:
     assert clustered_rate([True] * 6, ["one"] * 6) == wilson(1, 1)
 
 
+def test_counts_of_several_samples_are_the_samples_one_by_one() -> None:
+    counted = clustered_rate([2, 0, 1], ["a", "b", "a"], [3, 0, 1])
+    assert counted == clustered_rate([1, 1, 0, 1], ["a"] * 4)
+    assert clustered_rate([0], ["a"], [0]).value is None
+
+
 def test_the_effective_size_by_hand() -> None:
     # Three families of two with 2, 1 and 0 hits: rate 1/2, variance (1 + 0 + 1) * 3/2 / 36 = 1/12,
     # of six independent samples 1/24: effect 2; Student's quantiles for 5 and 2 degrees of freedom:
