@@ -1,5 +1,5 @@
-"""From scores and timed queries to figures with intervals: the metrics of a row, the row taken apart,
-its repeats and costs; and whether a system knows when it is wrong.
+"""From scores and timed queries to figures with intervals: the metrics of a row, the row taken
+apart, its repeats and costs; and whether a system knows when it is wrong.
 """
 
 import math

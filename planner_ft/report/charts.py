@@ -1,5 +1,5 @@
-"""The charts of a test set: tables of figures, and how they are drawn. The kind of each, its columns,
-what it shows and how to read it stand in figures.toml.
+"""The charts of a test set: tables of figures, and how they are drawn. The kind of each, its
+columns, what it shows and how to read it stand in figures.toml.
 """
 
 import tomllib
