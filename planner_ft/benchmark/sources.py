@@ -1,6 +1,6 @@
-"""Sources of answers: a candidate that is loaded here, in batches whose size finds itself, or a chat
-completions server, held to a plan's strict schema where that is asked. One serves the jobs of one
-candidate; what it answered before it failed half-way is kept.
+"""Sources of answers: a candidate that is loaded here, in batches whose size finds itself, or a
+chat completions server, held to a plan's strict schema where that is asked. One serves the jobs of
+one candidate; what it answered before it failed half-way is kept.
 """
 
 from __future__ import annotations
