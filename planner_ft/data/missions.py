@@ -81,6 +81,9 @@ class MissionSampler:
         self.words = WordLists(vocabulary.phrases.get("words", {}), self.config.get("words", {}))
         self.texts = PlanTexts(vocabulary, self.config)
         self.default: str = self.config.get("target", "thing")
+        if self.default not in self.words:
+            file = f"{vocabulary.name}{MISSIONS}"
+            raise PlannerError(f"{file}: target = {self.default!r}: there is no such word list")
         self.draws: dict[tuple[str, str], tuple[Draw, tuple[float, float]]] = {}
         self.groups = templates(vocabulary, "commands", split, subjects)
         clauses = list(itertools.chain(*templates(vocabulary, "clauses", split)))

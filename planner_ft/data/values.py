@@ -16,8 +16,10 @@ things.txt.
 
 import functools
 import itertools
+import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -25,6 +27,7 @@ from typing import Any
 from planner_ft.data.numbers import Value, pick, polygon, position, say_number, words
 from planner_ft.data.templates.render import bare as without_article
 from planner_ft.facts.geometry import Point, point, tidy
+from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import Parameter
 
 TABLE: dict[str, Any] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
@@ -63,7 +66,7 @@ def joined(parts: Sequence[str], last: str = " and ") -> str:
 
 
 class WordLists:
-    """The word lists of a vehicle."""
+    """The word lists of a vehicle. Raises PlannerError for one that is not there, or has itself."""
 
     def __init__(self, *groups: Mapping[str, Sequence[str] | Mapping[str, float]]) -> None:
         self.lists: dict[str, Weighted] = {}
@@ -74,12 +77,23 @@ class WordLists:
             if isinstance(entries, Mapping):
                 weights = list(itertools.accumulate(entries.values()))
             self.lists[name] = (list(entries), weights)
+        named = {
+            name: set(re.findall(r"\{([^}]*)\}", " ".join(entries))) - MADE_UP.keys()
+            for name, (entries, _weights) in self.lists.items()
+        }
+        for name, others in named.items():
+            for other in sorted(others - self.lists.keys()):
+                raise PlannerError(f"[words] {name}: there is no word list {other!r}; add it")
+        try:
+            TopologicalSorter(named).prepare()
+        except CycleError as error:
+            raise PlannerError(f"[words] {' names '.join(error.args[1])}: leave one out") from None
 
     def __contains__(self, name: str) -> bool:
         return name in self.lists or name in MADE_UP
 
     def entry(self, name: str, rng: Random) -> str:
-        """A filled entry of the list, article included. Raises KeyError for an unknown list."""
+        """A filled entry of the list, article included."""
         if name not in self.lists:
             return MADE_UP[name](rng)
         entries, weights = self.lists[name]

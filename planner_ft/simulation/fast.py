@@ -101,9 +101,10 @@ def build_vessel(vocabulary: Vocabulary, profile: Mapping[str, Any]) -> Vessel:
         for one in value if key == "drag" and isinstance(value, list) else [value]:
             if key != "drive" and not (is_number(one) and one > 0):
                 raise PlannerError(f"{where}: {key} = {value!r} must be above 0")
-    values["drag"] = tuple(values.get("drag", Vessel.drag))
-    if len(values["drag"]) != 3:
+    drag = values.get("drag", Vessel.drag)
+    if not isinstance(drag, list | tuple) or len(drag) != 3:
         raise PlannerError(f"{where}: drag must be three numbers: of surge, sway and yaw")
+    values["drag"] = tuple(drag)
     values["turn"] = min(values["turn"], math.radians(profile["turn_rate"]))
     cruise = min(profile["cruise_speed"], values["speed"])
     return Vessel(cruise=cruise, endurance=profile["endurance"], **values)

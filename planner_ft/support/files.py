@@ -4,6 +4,7 @@ import contextlib
 import csv
 import hashlib
 import json
+import math
 import os
 import secrets
 import shutil
@@ -165,9 +166,18 @@ def read_json(path: Path | str) -> Any:
 def read_toml(path: Path | str) -> dict[str, Any]:
     """The content of a TOML file. Raises PlannerError."""
     try:
-        return tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
+        return tomllib.loads(read_text(path), parse_float=_finite)
+    except ValueError as error:
         raise PlannerError(f"{path}: not TOML: {error}") from None
+    except RecursionError:
+        raise PlannerError(f"{path}: not TOML that can be read (nested too deeply)") from None
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text} is no number that can be used")
+    return value
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.support.files import read_toml
+from planner_ft.support.files import read_json, read_toml
 
 if TYPE_CHECKING:
     from planner_ft.vocabulary.definition import Parameter, Skill, Task, Vocabulary
@@ -187,6 +187,28 @@ def reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
 
 
 # ---------------------------------------------------------------- the files beside a definition
+
+
+def shape_of_file(raw: Entry, ending: str) -> str | None:
+    """What is wrong with the shape of NAME + `ending` (shapes/beside.schema.json)."""
+    if (validator := _shapes().get(ending)) is None:
+        return None
+    from jsonschema.exceptions import best_match
+
+    found = best_match(validator.iter_errors(raw))
+    return found and f"{found.json_path.removeprefix('$.')}: {found.message[:200]}"
+
+
+@functools.cache
+def _shapes() -> dict[str, Any]:
+    """The validator of each kind of file beside a definition, by its ending."""
+    import jsonschema
+
+    schema = read_json(Path(__file__).parent / "shapes" / "beside.schema.json")
+    made = jsonschema.Draft202012Validator
+    return {
+        one: made({"$ref": f"#/$defs/{one}", "$defs": schema["$defs"]}) for one in schema["$defs"]
+    }
 
 
 def logic_problems(raw: Entry, tasks: Mapping[str, Task]) -> Iterator[str]:

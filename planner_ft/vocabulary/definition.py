@@ -216,7 +216,10 @@ class Vocabulary:
 
     def beside(self, ending: str) -> dict[str, Any]:
         """The file NAME + `ending` beside the definition ({} without). Raises PlannerError."""
-        return _beside(self.path, ending) if self.path else {}
+        raw = _beside(self.path, ending) if self.path else {}
+        if raw and (problem := checks.shape_of_file(raw, ending)):
+            raise PlannerError(f"{self.name}{ending}: {problem}")
+        return raw
 
     def skills_in_role(self, role: Role) -> tuple[Skill, ...]:
         """Skills that can stand in `role`, in the order of the definition."""

@@ -106,11 +106,7 @@ def _skill_problems(key: str, skills: Any, task: Task, vocabulary: Vocabulary) -
 
 
 def _name_problems(key: str, entry: Entry, known: Any, what: str) -> Iterator[str]:
-    names = entry.get(key, [])
-    if not isinstance(names, list):
-        yield f"{key} must be a list of names"
-        return
-    there = ", ".join(known) or "none"
+    names, there = entry.get(key, []), ", ".join(known) or "none"
     yield from (
         f"{key}: {name!r} is not {what}; there is {there}" for name in names if name not in known
     )

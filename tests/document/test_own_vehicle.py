@@ -117,3 +117,20 @@ def test_a_part_is_a_line_with_what_it_serves(rover: Path) -> None:
     rover.with_suffix(".commands.jsonl").unlink()
     found = {part.file: part for part in check_vehicle(str(rover))}["my_rover.commands.jsonl"]
     assert found.state == "missing" and "no synthetic missions" in found.text
+
+
+@pytest.mark.parametrize(
+    ("kind", "content", "problem"),
+    [
+        ("missions", "task.Wait = []", "task.Wait: [] is not of type 'object'"),
+        ("missions", "target = 'nobody'", "target = 'nobody': there is no such word list"),
+        ("phrases", "skill.Stop.often = 'x'", "skill.Stop.often: 'x' is not of type 'object'"),
+        ("limits", "speed = 3", "speed: 3 is not of type 'object'"),
+        ("simulation", "skill.Stop.every = 0", "skill.Stop.every: 0 is less than or equal"),
+    ],
+)
+def test_the_shape_of_every_file_is_checked(
+    rover: Path, kind: str, content: str, problem: str
+) -> None:
+    rover.with_suffix(f".{kind}.toml").write_text(content + "\n")
+    assert any(part.state == "wrong" and problem in part.text for part in check_vehicle(str(rover)))

@@ -127,6 +127,8 @@ HOVER = task("HoverWatch", {"duration": 5}, [step("Hover", {"time": 5})])
         ("[skill.Swim]", "is no skill of inspection_drone"),
         ("[vessel]\nwheels = 4", "has no key 'wheels'"),
         ("[vessel]\nspeed = -1", "speed = -1 must be above 0"),
+        ("[vessel]\ndrag = 3", "drag must be three numbers"),
+        ("[skill]\nHover = 3", "skill.Hover: 3 is not of type 'object'"),
         ("[vessel]\ndrive = 'sail'", "must be differential or free"),
         ("[sails]", r"unknown table \[sails\]"),
     ],

@@ -13,6 +13,7 @@ from planner_ft.support.files import (
     compact_json,
     read_json,
     read_jsonl,
+    read_toml,
     sha256_tree,
     write_json,
     write_jsonl,
@@ -99,3 +100,10 @@ def test_a_folder_digest_changes_with_any_byte(tmp_path: Path) -> None:
     assert sha256_tree(tmp_path, ("*.safetensors",)) == before
     (tmp_path / "a.safetensors").write_bytes(b"2")
     assert sha256_tree(tmp_path, ("*.safetensors",)) != before
+
+
+@pytest.mark.parametrize("content", ["speed = nan", "speed = 1e400", "a = " + "[" * 100_000])
+def test_toml_that_cannot_be_used_is_one_sentence(tmp_path: Path, content: str) -> None:
+    (tmp_path / "a.toml").write_text(content)
+    with pytest.raises(PlannerError, match=r"a\.toml: not TOML"):
+        read_toml(tmp_path / "a.toml")

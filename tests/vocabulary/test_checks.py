@@ -345,7 +345,11 @@ TAKES = "must name a parameter of the skill, then one of the task"
                 "there is goto, hold, turn_to, turn_by, arc, drift, visual, wait",
             ],
         ),
-        ('[task.RoofScan]\nasks = "width"\n', [f"{ROOF}asks must be a list of names"]),
+        (
+            '[task.RoofScan]\nasks = "width"\n',
+            ["task.RoofScan.asks: 'width' is not of type 'array'"],
+        ),
+        ("[task.RoofScan]\nasks = [[]]\n", ["task.RoofScan.asks[0]: [] is not of type 'string'"]),
         ('[task.RoofScan]\nasks = ["depth"]\n', [f"{ROOF}asks: 'depth' is not a parameter", SIZES]),
         (
             '[task.SendReport]\nasks = ["depth"]\n',
@@ -395,6 +399,8 @@ FENCE = '[fence]\nsentences = ["Inside {polygon}."]\nprompts = ["In {polygon}."]
             "[fence]: StayInGeofence is no skill with these parameters",
         ),
         (FENCE + 'forbids = ["Film"]\n', "[fence]: forbids Film, which is no skill"),
+        (FENCE.replace("{polygon}", "{polygon"), "fence.sentences[0]: 'Inside {polygon.' does not"),
+        ("fence = 3\n", "fence: 3 is not of type 'object'"),
     ],
 )
 def test_a_limits_file(tmp_path: Path, limits: str, problem: str) -> None:

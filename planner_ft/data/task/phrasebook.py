@@ -23,7 +23,7 @@ from planner_ft.data.templates.grammar import Nodes, TemplateError, all_slots, p
 from planner_ft.data.values import FALLBACK, MADE_UP, Draw, WordLists, number_space, value_space
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary.definition import ROLES, Parameter, Skill, Task, Vocabulary
+from planner_ft.vocabulary.definition import PHRASES, ROLES, Parameter, Skill, Task, Vocabulary
 
 FORMS = {"#": "full", "!": "num", "^": "noun", "+": "way"}
 _FORM = re.compile(r"(?<=\w)[#!^+](?=})")
@@ -179,7 +179,7 @@ def _generic_phrase(skill: Skill) -> str:
 
 
 def _check_phrases(vocabulary: Vocabulary) -> None:
-    raw, where = vocabulary.phrases, f"vocabulary {vocabulary.source}: phrase"
+    raw, where = vocabulary.beside(PHRASES), f"vocabulary {vocabulary.source}: phrase"
     known = {*raw.get("words", {}), *raw.get("decor", {}), *FALLBACK, *MADE_UP}
     known.update(name for task in vocabulary.tasks for name in task.by_name)
     for section in ("skill", "task", "pattern", "sentence"):

@@ -3,12 +3,15 @@
 import random
 import re
 
+import pytest
+
 from planner_ft.data.numbers import bearing, duration, polygon, position, rotation
 from planner_ft.data.task.compose import skill_clause
 from planner_ft.data.task.draw import Context, Drawing
 from planner_ft.data.task.phrasebook import gerund, phrasebook
 from planner_ft.data.templates.render import joined, plain, skeleton
 from planner_ft.data.values import WordLists, made_up_name
+from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary()
@@ -113,3 +116,17 @@ def test_made_up_names_differ():
     rng = random.Random(1)
     assert len({made_up_name(rng) for _ in range(300)}) > 280
     assert len({WordLists().entry("code", rng) for _ in range(300)}) > 250
+
+
+@pytest.mark.parametrize(
+    ("lists", "problem"),
+    [
+        ({"gate": ["the {nam} gate"]}, "gate: there is no word list 'nam'"),
+        ({"a": ["a {b}", "c"], "b": ["the {a}"]}, "names"),
+    ],
+)
+def test_word_lists_that_cannot_be_filled_are_named(
+    lists: dict[str, list[str]], problem: str
+) -> None:
+    with pytest.raises(PlannerError, match=problem):
+        WordLists(lists)
