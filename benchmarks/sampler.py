@@ -22,7 +22,7 @@ from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import Vocabulary, load_vocabulary
 
 PARTS: tuple[tuple[str, Any, str], ...] = (
-    ("put together", sampler, "Prompt"),
+    ("put together", sampler, "composed"),
     ("from templates", sampler, "draw_template"),
     ("validation", sampler, "plan_problems"),
     ("geometry", geometry, "survey_square"),

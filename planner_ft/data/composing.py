@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from operator import itemgetter
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from planner_ft.data.clauses import Beside, Clause, Effect, demanded
 from planner_ft.data.drawing import Drawing
 from planner_ft.data.mission_binding import CLAUSE, bind
-from planner_ft.data.mission_plan import Intent, Target, label
+from planner_ft.data.mission_plan import Beside, Effect, Intent, effect_of, label
 from planner_ft.data.numbers import pick
+from planner_ft.data.targets import Target
 from planner_ft.data.templates.grammar import is_small
 from planner_ft.data.templates.records import FORMS, Template
 from planner_ft.data.templates.render import PIECE, joined
@@ -34,78 +33,66 @@ Clauses = tuple[list[Template], list[Template]]
 """Records of demands, and those of limits."""
 
 
-@dataclass
 class Command:
-    """A composed command: its text with the values marked, its plan, and by task the skills that
-    its clauses put beside it; `clauses` counts them.
+    """A command composed of templates: its `text` with the values marked, its plan `expected`, and
+    by task the skills that its clauses put `beside` it; `clauses` counts them, which are fewer than
+    asked for where none fits.
     """
 
-    text: str
-    expected: dict[str, Any]
-    beside: list[list[Beside]]
-    clauses: int
-
-
-class Composer:
-    """Puts one command together."""
-
     def __init__(
-        self, sampler: MissionSampler, templates: Sequence[Template], rng: Random, clauses: Clauses
+        self,
+        sampler: MissionSampler,
+        templates: Sequence[Template],
+        rng: Random,
+        records: Clauses,
+        clauses: int,
     ) -> None:
-        self.sampler, self.rng, self.clauses = sampler, rng, clauses
-        given = sampler.vocabulary, sampler.words
-        self.drawings = [Drawing(sampler, bind(one, *given), rng) for one in templates]
-        self.intents = [
-            [_renamed(drawing.intent(line), number) for line in drawing.lines]
+        self.sampler, self.rng, self.records = sampler, rng, records
+        self.drawings = [Drawing(sampler, bind(one, sampler), rng) for one in templates]
+        self.asked = [
+            [(step, drawing.intent(step, number)) for step in drawing.tasks]
             for number, drawing in enumerate(self.drawings)
         ]
-        self.planned = label(itertools.chain(*self.intents), sampler.vocabulary)
-        self.bodies = [list[PIECE]() for _ in self.drawings]
+        intents = (intent for _step, intent in itertools.chain(*self.asked))
+        self.planned = label(intents, sampler.vocabulary)
         self.before, self.after = list[PIECE](), list[PIECE]()
         self.effects: list[tuple[int, int, Effect]] = []
-
-    def command(self, clauses: int) -> Command:
-        """The command with so many clauses, or fewer where none fits."""
         self._own_demands()
         own = len(self.effects)
         self._fill_slots()
-        for number, drawing in enumerate(self.drawings):
-            self.bodies[number] = list(drawing.pieces())
+        self.bodies = [list(drawing.pieces()) for drawing in self.drawings]
         for _ in range(clauses if len(self.planned) <= MANY else min(clauses, 1)):
             self._add(pick(range(len(self.drawings)), self.rng))
-        return Command(self._text(), *self._plan(), clauses=len(self.effects) - own)
+        self.text, self.clauses = self._text(), len(self.effects) - own
+        self.expected, self.beside = self._plan()
 
     # ------------------------------------------------------------ clauses
 
     def _own_demands(self) -> None:
         """What the templates themselves ask for beside their tasks."""
-        for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
-            for line, intent in zip(drawing.lines, intents, strict=True):
+        for number, drawing in enumerate(self.drawings):
+            for step, intent in self.asked[number]:
                 places = self._covered([intent], inserted=False)
-                for call in line.demands:
-                    if not call.label or call.label in drawing.labels:
-                        given = {argument.name: argument.value for argument in call.arguments}
-                        effect = Effect(self.planned, {call.name})
-                        effect.add(places, *demanded(call.name, given, self.sampler))
-                        self.effects.append((BODY, number, effect))
-            for call in drawing.bound.limits:
-                if not call.label or call.label in drawing.labels:
-                    effect, given = Effect(self.planned), drawing.given(call)
-                    titles = str(given.pop("of", "")).split()
-                    named = [at for at, one in enumerate(self.planned) if one.task.title in titles]
-                    given |= {"scope": "task"} if titles else {}
-                    effect.limit(drawing.vocabulary, call.name, given, named)
+                for call in filter(drawing.is_chosen, step.perceptions):
+                    effect = Effect(self.sampler, self.planned)
+                    effect.demand(call.name, drawing.given(call), places)
                     self.effects.append((BODY, number, effect))
+            for call in filter(drawing.is_chosen, drawing.bound.limits):
+                effect, given = Effect(self.sampler, self.planned), drawing.given(call)
+                titles = str(given.pop("of", "")).split()
+                named = [at for at, one in enumerate(self.planned) if one.task.title in titles]
+                given |= {"scope": "task"} if titles else {}
+                effect.limit(call.name, given, named)
+                self.effects.append((BODY, number, effect))
 
     def _fill_slots(self) -> None:
-        for number, (drawing, intents) in enumerate(zip(self.drawings, self.intents, strict=True)):
-            for slot in drawing.slots:
-                if slot.base == CLAUSE:
-                    lines = zip(drawing.lines, intents, strict=True)
-                    own = [intent for line, intent in lines if slot.key in line.clauses]
-                    if found := self._clause(own, (slot.kind,), alone=True):
-                        drawing.clauses[slot.key], effect = found
-                        self.effects.append((BODY, number, effect))
+        for number, drawing in enumerate(self.drawings):
+            for slot in (slot for slot in drawing.slots if slot.base == CLAUSE):
+                asked = self.asked[number]
+                own = [intent for step, intent in asked if slot.key in step.call.of("clause")]
+                if found := self._clause(own, (slot.kind,), alone=True):
+                    drawing.clauses[slot.key], effect = found
+                    self.effects.append((BODY, number, effect))
 
     def _covered(self, intents: Sequence[Intent], *, inserted: bool = True) -> list[int]:
         """The places in the plan of the tasks of intents."""
@@ -117,20 +104,21 @@ class Composer:
 
     def _clause(
         self, intents: Sequence[Intent], forms: Sequence[str], *, alone: bool
-    ) -> tuple[Clause, Effect] | None:
+    ) -> tuple[Drawing, Effect] | None:
         """A clause of one of these forms that fits what was asked for, and what it adds."""
         covered = set(self._covered(intents))
         it = _target(intents)
         for _ in range(TRIES):
-            group = self.clauses[self.rng.random() >= DEMANDED]
+            group = self.records[self.rng.random() >= DEMANDED]
             fitting = [template for template in group if template.form in forms]
             if not fitting:
                 continue
             template = pick(fitting, self.rng)
             if "{it}" in template.text and (it is None or _open_stand_off(intents)):
                 continue
-            clause = Clause(self.sampler, template, self.rng, it)
-            effect = clause.effect(self.planned, covered, alone=alone)
+            bound = bind(template, self.sampler)
+            clause = Drawing(self.sampler, bound, self.rng, it)
+            effect = effect_of(clause, self.planned, covered, alone=alone)
             if effect and not self._clashes(effect):
                 return clause, effect
         return None
@@ -143,7 +131,7 @@ class Composer:
 
     def _add(self, number: int) -> None:
         """A clause at the end of one of the bodies, or before or behind the whole."""
-        rng, asked = self.rng, [intent for intent in self.intents[number] if not intent.home]
+        rng, asked = self.rng, [one for _step, one in self.asked[number] if not one.home]
         if (found := self._clause(asked, FORMS, alone=len(asked) == 1)) is None:
             return
         clause, effect = found
@@ -205,14 +193,6 @@ class Composer:
                 if skill is not None:
                     beside[place].append(skill)
         return expected, beside
-
-
-def _renamed(intent: Intent, number: int) -> Intent:
-    """The intent with a target of its own: "T1" of two templates are two things."""
-    target = intent.target
-    if number == 0 or target is None:
-        return intent
-    return replace(intent, target=replace(target, key=f"{number}{target.key}"))
 
 
 def _target(intents: Sequence[Intent]) -> Target | None:

@@ -4,61 +4,25 @@ The rules (searches, transits, positions) read the vocabulary's fields, the text
 NAME.missions.toml; so both hold for any vehicle.
 """
 
+from __future__ import annotations
+
 import functools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from planner_ft.data.targets import Target
 from planner_ft.data.task.phrasebook import spaced
-from planner_ft.data.templates.grammar import Slot, choose, parse_text
-from planner_ft.facts.geometry import Point, tidy
+from planner_ft.data.templates.grammar import Slot, choose, fail, parse_text
+from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary import Task, Vocabulary
-from planner_ft.vocabulary.limits import written
+from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence, slots, written
 from planner_ft.vocabulary.plans import TASK_KEYS
 
-
-@dataclass(frozen=True)
-class Target:
-    """A place, structure or moving thing that a command speaks of; `key` tells those of one command
-    apart.
-
-    `description` is written as in the plan, `text` is said, both without article; `article`: texts
-    put "the" before it. `identity` is the id of something to follow. `spot` marks a docking place,
-    `on_site` that the vehicle lies there already.
-    """
-
-    key: str
-    description: str | None = None
-    position: Point | None = None
-    article: bool = True
-    text: str = ""
-    identity: str | None = None
-    spot: bool = False
-    doubtful: bool = False
-    whereabouts: str = ""
-    on_site: bool = False
-    noun: str = ""
-
-    @property
-    def must_be_found(self) -> bool:
-        """Whether only a search can tell where it is."""
-        known = self.position is not None or self.identity is not None
-        return not (known or self.spot or self.on_site)
-
-    @property
-    def name(self) -> str:
-        """The target as the plan's texts call it: "the green barrel", "[45, 10]"."""
-        if self.description is None:
-            return self.identity or written(self.position or (0, 0))
-        return f"the {self.description}" if self.article else self.description
-
-    @property
-    def place(self) -> str:
-        """The name with its place: "the met mast at [120, -35]"."""
-        if self.description is None or self.position is None:
-            return self.name
-        return f"{self.name} at {written(self.position)}"
+if TYPE_CHECKING:
+    from planner_ft.data.drawing import Drawing
+    from planner_ft.data.missions import MissionSampler
 
 
 @dataclass(frozen=True)
@@ -132,6 +96,117 @@ def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
         elif task.pattern != "hold":
             here = None
     return plan
+
+
+# ---------------------------------------------------------------- limits and demands
+
+
+Beside = tuple[str, str, dict[str, Any]]
+"""A skill that runs in the steps of a task: role, name and parameters."""
+
+
+@dataclass
+class Effect:
+    """What limits and demands add to the `planned` tasks: constraints, and by the task's place a
+    sentence of its prompt with the skill that it stands for. `about`: the kinds of limits and the
+    skills in it.
+    """
+
+    sampler: MissionSampler
+    planned: Sequence[Planned]
+    about: set[str] = field(default_factory=set)
+    constraints: list[str] = field(default_factory=list)
+    sentences: list[tuple[int, str, Beside | None]] = field(default_factory=list)
+
+    def moving(self) -> list[int]:
+        """The places of the tasks in which the vehicle moves or holds a place."""
+        tasks = enumerate(item.task for item in self.planned)
+        return [at for at, task in tasks if task.arrival != "none" or task.pattern != "hold"]
+
+    def add(self, places: Sequence[int], text: str, beside: Beside | None = None) -> None:
+        """A sentence for the tasks at these places."""
+        self.sentences += [(place, text, beside) for place in places]
+
+    def limit(self, kind: str, given: dict[str, Any], own: Sequence[int] = ()) -> bool:
+        """Add a limit; whether it fits. One of the tasks at the places `own` alone names their
+        titles, which no other task may have. Raises TemplateError where a value is missing.
+        """
+        planned, places, titles = self.planned, self.moving(), list[str]()
+        if given.pop("scope", "mission") == "task":
+            titles = [planned[place].task.title for place in own]
+            others = (item for place, item in enumerate(planned) if place not in own)
+            if any(item.task.title in titles for item in others):
+                return False
+            places = [place for place in places if place in own]
+        limits = load_limits(self.sampler.vocabulary)
+        rule = limits[kind]
+        if not any(set(slots(form)) <= given.keys() for form in rule.sentences):
+            fail(f"{kind} needs {' and '.join(slots(rule.sentences[-1]))}")
+        self.about.add(kind)
+        self.constraints.append(sentence(kind, given, limits, titles))
+        values = {name: given[value] for name, value in rule.parameters.items()}
+        if kind == "return":
+            places = [place for place in places if planned[place].intent.home]
+        elif kind == "duration" and not titles:
+            places = []
+        beside = ("filter", rule.filter, values) if rule.filter else None
+        self.add(places, prompt_sentence(kind, given, limits), beside)
+        return True
+
+    def demand(self, name: str, given: dict[str, Any], places: Sequence[int]) -> bool:
+        """Add a demand for data to the tasks at these places; whether there are any."""
+        skill, where = self.sampler.vocabulary.skill[name], given.pop("where", "")
+        text = given.pop("say", "") or self.sampler.config["demand"][name]
+        for parameter in skill.parameters:
+            value = given.get(parameter.name)
+            if parameter.type == "texts" and isinstance(value, str):
+                given[parameter.name] = [value]
+            text = text.replace(f"{{{parameter.name}}}", str(value))
+        self.about.add(name)
+        self.add(places, f"{text} {where}".rstrip() + ".", (skill.role, name, given))
+        return bool(places)
+
+
+def effect_of(
+    clause: Drawing, planned: Sequence[Planned], covered: set[int], *, alone: bool
+) -> Effect | None:
+    """What a clause adds to a plan of which it covers the tasks at these places; None where it does
+    not fit. `alone`: these tasks are one thing that was asked for.
+    """
+    effect, titles = Effect(clause.sampler, planned), clause.template.tasks
+    asked = [at for at in sorted(covered) if not planned[at].inserted]
+    own = [at for at in asked if not planned[at].intent.home]
+    if titles and not any(planned[at].task.title in titles for at in own):
+        return None
+    limits, moving = load_limits(clause.vocabulary), effect.moving()
+    for call in filter(clause.is_chosen, clause.bound.limits):
+        given = clause.given(call)
+        if given.get("scope", "mission") != "mission" and not alone:
+            return None
+        if call.name in limits:
+            fits = effect.limit(call.name, given, own)
+        else:
+            scope = given.pop("scope", "mission")
+            places = [
+                at for at in moving if _suits(clause, planned[at], call.name, scope, at in covered)
+            ]
+            fits = effect.demand(call.name, given, places)
+        if not (fits and moving):
+            return None
+    for text in clause.remarks()[0]:
+        effect.constraints.append(text)
+        effect.add(moving, text)
+    return effect
+
+
+def _suits(clause: Drawing, planned: Planned, skill: str, scope: str, covered: bool) -> bool:
+    """Whether a demand of this scope belongs to a task; `covered` by the clause or not."""
+    task, home, titles = planned.task, planned.intent.home, clause.template.tasks
+    able = skill in task.skills.get("perception", ())
+    transit = task.title == clause.vocabulary.transit
+    fits = {"mission": able, "home": home, "way": covered and transit and not home}
+    fits["task"] = covered and not planned.inserted and (able or transit)
+    return fits[scope] and (not titles or task.title in titles)
 
 
 # ---------------------------------------------------------------- texts

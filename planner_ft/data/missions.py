@@ -15,15 +15,14 @@ from collections.abc import Iterator, Sequence
 from random import Random
 from typing import Any
 
-from planner_ft.data.clauses import Beside
-from planner_ft.data.composing import Command, Composer
-from planner_ft.data.formulas import HOME
-from planner_ft.data.mission_plan import PlanTexts
-from planner_ft.data.numbers import Value, feet, knots, pick
+from planner_ft.data.composing import Command
+from planner_ft.data.mission_plan import Beside, PlanTexts
+from planner_ft.data.numbers import Draw, Value, feet, knots, pick
+from planner_ft.data.targets import HOME
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template, templates
 from planner_ft.data.templates.render import noisy, plain
-from planner_ft.data.values import Draw, WordLists, value_space
+from planner_ft.data.values import WordLists, value_space
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Parameter, Task, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import MISSIONS
@@ -84,7 +83,6 @@ class MissionSampler:
         if self.default not in self.words:
             file = f"{vocabulary.name}{MISSIONS}"
             raise PlannerError(f"{file}: target = {self.default!r}: there is no such word list")
-        self.draws: dict[tuple[str, str], tuple[Draw, tuple[float, float]]] = {}
         self.groups = templates(vocabulary, "commands", split, subjects)
         clauses = list(itertools.chain(*templates(vocabulary, "clauses", split)))
         kinds = load_limits(vocabulary)
@@ -133,42 +131,36 @@ class MissionSampler:
         """
         records = ([only], [only]) if only else self.clauses
         try:
-            return Composer(self, made, rng, records).command(clauses)
+            return Command(self, made, rng, records, clauses)
         except TemplateError as error:
             raise (only or made[0]).error(error) from None
 
-    def value(self, task: Task, parameter: Parameter, rng: Random) -> Value:
-        """A value of a parameter, with its words."""
-        key = task.title, parameter.name
-        if key not in self.draws:
-            config: dict[str, Any] = {}
-            for source in (self.vocabulary.phrases, self.config):
-                own = source.get("task", {}).get(task.title, {})
-                config |= own.get("values", {}).get(parameter.name, {})
-            typical = config.get("typical", (1, 60))
-            self.draws[key] = value_space(parameter, config, self.words), typical
-        draw, (low, high) = self.draws[key]
-        foreign = None
+    def draw(self, task: Task, parameter: Parameter) -> Draw:
+        """How values of a parameter are drawn, with their words."""
+        config: dict[str, Any] = {}
+        for source in (self.vocabulary.phrases, self.config):
+            own = source.get("task", {}).get(task.title, {})
+            config |= own.get("values", {}).get(parameter.name, {})
+        draw, typical = value_space(parameter, config, self.words), config.get("typical", (1, 60))
         measure = parameter.unit if parameter.type == "number" else None
-        if measure in ("m", "m/s") and rng.random() < FOREIGN:
-            foreign = knots(rng) if measure == "m/s" else feet(rng, low, high)
-        usable = foreign is not None and value_problem(foreign.value, parameter) is None
-        return foreign if foreign and usable else draw(rng)
+        if measure not in ("m", "m/s"):
+            return draw
+
+        def drawn(rng: Random) -> Value:
+            if rng.random() < FOREIGN:
+                foreign = knots(rng) if measure == "m/s" else feet(rng, *typical)
+                if foreign is not None and value_problem(foreign.value, parameter) is None:
+                    return foreign
+            return draw(rng)
+
+        return drawn
 
 
 def _is_short(template: Template) -> bool:
     """Whether a template asks for one thing, so that another one can follow it."""
-    call = template.steps[0].call if len(template.steps) == 1 else None
-    if call is None or call.name == HOME or call.label:
+    text, calls = template.text, [step.call for step in template.steps]
+    if len(calls) != 1 or calls[0].name == HOME or calls[0].label or len(text) >= 110:
         return False
-    text = template.text
-    return not (
-        template.excluded
-        or template.constraints
-        or template.assumptions
-        or len(text) >= 110
-        or HOST in text
-        or "{~" in text
-        or any(argument.value == "here" for argument in call.arguments)
-        or any(word in text.lower() for word in ORDERING)
-    )
+    more = template.excluded or template.constraints or template.assumptions
+    ordered = HOST in text or any(word in text.lower() for word in ("{~", *ORDERING))
+    return not (more or ordered or any(one.value == "here" for one in calls[0].arguments))

@@ -38,6 +38,10 @@ or `doubtful`.
 """
 
 
+WORDINGS = {"adj": "short", "num": "short", "noun": "noun", "way": "way"}
+"""The wording that an option of a slot asks for."""
+
+
 @dataclass(frozen=True)
 class Value:
     """A value of a plan and how it is said; a wording that is None cannot be said of this value.
@@ -52,18 +56,19 @@ class Value:
     noun: str | None = None
     way: str | None = None
 
+    def _asked(self, options: frozenset[str]) -> list[str | None]:
+        return [getattr(self, WORDINGS[option]) for option in WORDINGS if option in options]
+
     def has(self, options: frozenset[str]) -> bool:
         """Whether the value can be worded in the way that a slot's options ask for."""
-        asked = {"num": self.short, "adj": self.short, "noun": self.noun, "way": self.way}
-        return all(asked.get(option, "") is not None for option in options)
+        return None not in self._asked(options)
 
     def worded(self, options: frozenset[str]) -> str:
         """The wording that a slot's options ask for, where the value has it."""
-        if self.short and ("adj" in options or "num" in options):
-            return self.short
-        if self.noun and "noun" in options:
-            return self.noun
-        return self.way if self.way and "way" in options else self.text
+        return next(filter(None, self._asked(options)), self.text)
+
+
+Draw = Callable[[Random], Value]
 
 
 def digits(value: float) -> str:

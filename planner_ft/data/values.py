@@ -24,7 +24,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import Value, pick, polygon, position, say_number, words
+from planner_ft.data.numbers import Draw, Value, pick, polygon, position, say_number, words
 from planner_ft.data.templates.render import bare as without_article
 from planner_ft.facts.geometry import Point, point, tidy
 from planner_ft.support.errors import PlannerError
@@ -35,7 +35,6 @@ ORDERS = words(TABLE["orders"])
 _PARTS = {name: words(text) for name, text in TABLE["parts"].items()}
 FALLBACK: Mapping[str, Sequence[str] | Mapping[str, float]] = {**TABLE["lists"], **_PARTS}
 Weighted = tuple[Sequence[str], Sequence[float] | None]
-Draw = Callable[[Random], Value]
 SPAN = 220
 """Metres from home within which most positions lie."""
 

@@ -7,7 +7,8 @@ import random
 import jsonschema
 import pytest
 
-from planner_ft.data.clauses import Clause
+from planner_ft.data.drawing import Drawing
+from planner_ft.data.mission_binding import bind
 from planner_ft.data.missions import MissionSampler, mission_sampler, missions_with_skills
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.sampler import mission_tasks
@@ -242,4 +243,5 @@ def test_validation_clauses_make_commands_of_their_own():
     sampler.clauses = MissionSampler(USV, "validation").clauses
     lines = list(itertools.chain(*sampler.clauses))
     assert lines and {line.split for line in lines} == {"validation"}
-    assert Clause(sampler, lines[0], random.Random(0)).template is lines[0]
+    made = Drawing(sampler, bind(lines[0], sampler), random.Random(0))
+    assert list(made.pieces()) and made.template is lines[0]

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from random import Random
 from typing import Any
 
 import pytest
 
-from planner_ft.data.mission_binding import Bound, bind
-from planner_ft.data.missions import mission_sampler
+from planner_ft.data.mission_binding import Bound, bind, slots_of
+from planner_ft.data.missions import MissionSampler, mission_sampler
 from planner_ft.data.templates.grammar import TemplateError
 from planner_ft.data.templates.records import Template
 from planner_ft.vocabulary import Parameter, load_vocabulary
 
 USV = load_vocabulary()
-LISTS = mission_sampler(USV).words
+SAMPLER = mission_sampler(USV)
 
 
 def bound(text: str, plan: str, **more: Any) -> Bound:
-    return bind(Template("made-1", "train", text, plan, "made.jsonl:1", **more), USV, LISTS)
+    return bind(Template("made-1", "train", text, plan, "made.jsonl:1", **more), SAMPLER)
 
 
 @pytest.mark.parametrize(
@@ -42,15 +43,16 @@ def bound(text: str, plan: str, **more: Any) -> Bound:
 def test_what_fills_a_task(
     text: str, plan: str, objects: str, fills: dict[str, Any], slots: str
 ) -> None:
-    (line,) = bound(text, plan).lines
-    assert (line.task and line.task.title) == (None if plan == "Home" else plan.split()[0])
-    assert " ".join(line.objects) == objects and line.clauses == []
-    assert {one.parameter.name: one.slot or one.value for one in line.fills} == fills
-    assert [type(one.value) for one in line.fills if not one.slot] == [
-        type(value) for value in fills.values() if not isinstance(value, str)
-    ]
-    assert sorted(line.slots()) == slots.split()
-    assert line.here == (" here" in plan) and line.near == ("T2" if "near=" in plan else "")
+    (step,) = bound(text, plan).tasks
+    call = step.call
+    assert call.name == plan.split()[0]
+    assert " ".join(call.of("object")) == objects and call.of("clause") == []
+    filled = {one.name: one.value for one in call.arguments if one.kind in ("slot", "literal")}
+    assert filled == fills
+    assert [type(value) for value in filled.values()] == [type(value) for value in fills.values()]
+    assert sorted(slots_of(call)) == slots.split()
+    assert bool(call.of("here")) == (" here" in plan)
+    assert call.of("near") == (["T2"] if "near=" in plan else [])
 
 
 def test_a_parameter_may_be_called_as_an_argument_of_the_grammar_is() -> None:
@@ -58,24 +60,29 @@ def test_a_parameter_may_be_called_as_an_argument_of_the_grammar_is() -> None:
     more = replace(dock, parameters=(*dock.parameters, Parameter("part", "text")))
     vehicle = replace(USV, tasks=tuple(more if one is dock else one for one in USV.tasks))
     template = Template("made-1", "train", "Dock at {P1}.", 'DockingApproach P1 part="bow"', "a:1")
-    (line,) = bind(template, vehicle, LISTS).lines
-    assert [(one.parameter.name, one.value) for one in line.fills] == [("part", "bow")]
+    (step,) = bind(template, MissionSampler(vehicle)).tasks
+    named = [(one.kind, one.name, one.value) for one in step.call.arguments if one.name]
+    assert named == [("literal", "part", "bow")]
 
 
 def test_owners_kinds_and_places_of_slots() -> None:
     found = bound("Orbit {T1:boat} at {P1}, {radius2}.", "PerformOrbit T1 P1 radius=radius2")
     assert (found.kinds, found.places) == ({"T1": "boat"}, {"T1": "P1"})
-    assert {slot: (task.title, one.name) for slot, (task, one) in found.owners.items()} == {
-        "radius2": ("PerformOrbit", "radius")
-    }
+    assert found.draws.keys() == {"radius2"}
     # A value outside the plan is that of the first task with such a parameter; of two tasks that
     # have it, the first one of the plan.
     said = bound("Hold {radius}.", "KeepStation here", constraints=("No {radius}.",))
-    assert said.owners["radius"][0].title == "PerformOrbit"
+    assert _drawn(said) == _drawn(found, "radius2")
     both = bound("{T1}: {radius}.", "SurveyTarget T1 radius; PerformOrbit T1 radius")
-    assert both.owners["radius"][0].title == "SurveyTarget" and both.places == {}
-    (line,) = bound("Hold{?now}.", "KeepStation?now here &GetGPSLocation").lines
-    assert line.label == "now" and [call.name for call in line.demands] == ["GetGPSLocation"]
+    survey = bound("{T1}: {radius}.", "SurveyTarget T1 radius")
+    assert _drawn(both) == _drawn(survey) != _drawn(said) and both.places == {}
+    (step,) = bound("Hold{?now}.", "KeepStation?now here &GetGPSLocation").tasks
+    assert step.call.label == "now"
+    assert [call.name for call in step.perceptions] == ["GetGPSLocation"]
+
+
+def _drawn(of: Bound, key: str = "radius") -> list[Any]:
+    return [of.draws[key](Random(seed)).value for seed in range(200)]
 
 
 @pytest.mark.parametrize(
@@ -128,8 +135,8 @@ def test_mistakes_are_named(text: str, plan: str, problem: str) -> None:
 def test_what_is_ruled_out_or_remarked_is_known() -> None:
     with pytest.raises(TemplateError, match="there is no task Sail to rule out"):
         bound("Hold.", "KeepStation here", excluded=("Sail",))
-    assert bound("Hold.", "KeepStation here", excluded=("Home", "Transit")).lines
+    assert bound("Hold.", "KeepStation here", excluded=("Home", "Transit")).tasks
     with pytest.raises(TemplateError, match="radius stands in the plan and not in the text"):
         bound("Hold.", "KeepStation here", constraints=("No {radius}.",))
     # A target of a labelled task may be missing where the label is.
-    assert bound("Hold( at {T1}{?a}|).", "KeepStation?a T1").lines[0].label == "a"
+    assert bound("Hold( at {T1}{?a}|).", "KeepStation?a T1").tasks[0].call.label == "a"

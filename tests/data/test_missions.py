@@ -11,10 +11,10 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from planner_ft.data.formulas import is_formula, worked_out
 from planner_ft.data.mission_binding import bind
 from planner_ft.data.missions import MissionSampler, mission_sampler, sample_missions
 from planner_ft.data.rules import rule_problems
+from planner_ft.data.targets import is_formula, worked_out
 from planner_ft.data.templates.records import Template, template_files, templates
 from planner_ft.data.templates.render import plain
 from planner_ft.facts.places import read_positions
@@ -59,17 +59,17 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
     exceptions = 0
     unread: list[str] = []
     for number, line in enumerate(lines):
-        bound = bind(line, sampler.vocabulary, sampler.words)
+        calls = [step.call for step in bind(line, sampler).tasks]
         literal = {
-            fill.parameter.name
-            for item in bound.lines
-            for fill in item.fills
-            if not fill.slot or is_formula(fill.slot)
+            one.name
+            for call in calls
+            for one in call.arguments
+            if one.kind == "literal" or (one.kind == "slot" and is_formula(str(one.value)))
         } | {
-            str(task.position_parameter)
-            for item in bound.lines
-            for task in (item.task, vehicle.task[vehicle.transit])
-            if task and any(map(is_formula, item.objects))
+            str(vehicle.task[title].position_parameter)
+            for call in calls
+            for title in (call.name, vehicle.transit)
+            if any(map(is_formula, call.of("object")))
         }
         command = sampler.compose([line], random.Random(f"{line.id}0"))
         text, expected = command.text, command.expected
@@ -420,7 +420,8 @@ def test_a_vehicle_without_templates_is_told_what_to_write(tmp_path):
 def test_foreign_units_are_of_lengths_and_speeds_that_the_parameter_takes(kind, unit, bounds):
     sampler, rng = MissionSampler(USV), random.Random(1)
     parameter = replace(USV.tasks[1].parameters[0], name="x", type=kind, unit=unit, **bounds)
-    drawn = [sampler.value(USV.tasks[1], parameter, rng).value for _ in range(400)]
+    draw = sampler.draw(USV.tasks[1], parameter)
+    drawn = [draw(rng).value for _ in range(400)]
     assert not [value for value in drawn if value_problem(value, parameter)]
 
 

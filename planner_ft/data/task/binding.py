@@ -5,29 +5,23 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from random import Random
+from typing import Any
 
-from planner_ft.data.numbers import Value
+from planner_ft.data.numbers import Draw, Value, angle
 from planner_ft.data.task.phrasebook import Phrasebook
 from planner_ft.data.task.steps import SHAPES, XY, value_draw
 from planner_ft.data.templates import grammar
 from planner_ft.data.templates.grammar import Argument, Call, Step, TemplateError, all_slots, fail
 from planner_ft.data.templates.records import Template
-from planner_ft.data.values import Draw
 from planner_ft.vocabulary.definition import Role, Task, Vocabulary
 
 WORDS = ("start", "turn", "axis")
 """Roles that a word of the plan fills: `turn=clockwise`."""
 JOINT = {"Grid": ("width", "length", "spacing", "count"), "Line": ("spacing",)}
 """Roles of a shape that are drawn as a whole, so that they fill each other."""
-
-
-class Source(NamedTuple):
-    """How a value is drawn, the place that a task parameter fills, whether it is a list."""
-
-    draw: Draw
-    place: str
-    several: bool = False
+SIDES = {"left": -1, "right": 1}
+"""Options of a slot for a turn, with its sign."""
 
 
 @dataclass
@@ -40,8 +34,10 @@ class Bound:
     everywhere: Step | None = None
     front: bool = False
     """What runs everywhere is mentioned before what the steps have of their own."""
-    sources: dict[str, Source] = field(default_factory=dict)
-    signs: dict[str, int] = field(default_factory=dict)
+    draws: dict[str, Draw] = field(default_factory=dict)
+    """How the value of a slot is drawn."""
+    places: dict[str, str] = field(default_factory=dict)
+    """What a slot fills ("StationKeep.time"): a task parameter that fills it, too, has its value."""
     params: set[str] = field(default_factory=set)
     located: set[str] = field(default_factory=set)
     """Task parameters whose position is calculated with, so that it must be known."""
@@ -49,14 +45,6 @@ class Bound:
     """Slots of optional parts, and how often they are given."""
     clause: bool = False
     """Whether this is in the words of the phrase file."""
-
-    def add(self, part: Bound) -> None:
-        """Take over what the slots of a part need."""
-        self.sources |= part.sources
-        self.signs |= part.signs
-        self.often |= part.often
-        self.params |= part.params
-        self.located |= part.located
 
 
 def titles(template: Template, vocabulary: Vocabulary) -> Sequence[str]:
@@ -85,14 +73,12 @@ def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
     for slot in slots:
         if slot.sign == "param":
             binder.parameter(slot.key)
-        elif slot.options & {"left", "right"}:
-            bound.signs[slot.key] = -1 if "left" in slot.options else 1
     for step in template.steps:
         if step.call.name != "ALL":
             bound.steps.append(binder.step(step))
         elif bound.everywhere is None:
             bound.everywhere, bound.front = binder.beside(step), not bound.steps
-    if unused := binder.keys - bound.sources.keys():
+    if unused := binder.keys - bound.draws.keys():
         fail(
             f"{{{min(unused)}}} stands in the text and in no step; for words that are no value of"
             " the plan write {_list}"
@@ -101,7 +87,7 @@ def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
     if not bound.steps:
         fail("there is no step")
     for key in (slot.key for slot in slots if slot.sign == "~"):
-        if key not in bound.sources:
+        if key not in bound.draws:
             fail(f"{{~{key}}} is another value of {{{key}}}, which is missing")
     return bound
 
@@ -109,7 +95,9 @@ def bind(template: Template, task: Task, book: Phrasebook) -> Bound:
 class _Binder:
     def __init__(self, bound: Bound, task: Task, book: Phrasebook) -> None:
         self.bound, self.book, self.task = bound, book, task
-        self.keys = {slot.key for slot in all_slots(bound.template.nodes) if not slot.sign}
+        slots = [slot for slot in all_slots(bound.template.nodes) if not slot.sign]
+        self.keys = {slot.key for slot in slots}
+        self.sides = {slot.key: side for slot in slots for side in SIDES.keys() & slot.options}
 
     def step(self, step: Step) -> Step:
         call = step.call
@@ -136,10 +124,13 @@ class _Binder:
         known = argument.kind == "param" and self.parameter(str(argument.value))
         return argument.name or (place if place and (known or base == "P") else base)
 
-    def _use(self, key: str, source: Source) -> None:
+    def _use(self, key: str, draw: Draw, place: str) -> None:
         if key not in self.keys:
             fail(f"{{{key}}} stands in a step and not in the text")
-        self.bound.sources.setdefault(key, source)
+        if side := self.sides.get(key):
+            draw, place = functools.partial(_turn, draw, SIDES[side]), ""
+        self.bound.draws.setdefault(key, draw)
+        self.bound.places.setdefault(key, place)
 
     def _skill(self, call: Call, role: Role) -> Call:
         skill = self.book.vocabulary.skill.get(call.name) or fail(f"there is no skill {call.name}")
@@ -157,7 +148,7 @@ class _Binder:
                 draws = self.book.skills[call.name].draws
                 draw = draws[name] if own else value_draw("Offset", "point", "P")
                 several = own and skill.by_name[name].type == "texts"
-                self._use(str(argument.value), Source(draw, f"{call.name}.{name}", several))
+                self._use(str(argument.value), draw, "" if several else f"{call.name}.{name}")
             arguments.append(replace(argument, name=name))
         given = {argument.name for argument in arguments}
         if place and XY not in given and not {"x", "y"} <= given:
@@ -178,7 +169,7 @@ class _Binder:
             elif argument.kind == "slot":
                 joint = role in JOINT.get(call.name, ())
                 draw = _no_draw if joint else value_draw(call.name, role, grammar.base_of(value))
-                self._use(value, Source(draw, shape.roles.get(role, "")))
+                self._use(value, draw, shape.roles.get(role, ""))
             arguments.append(replace(argument, name=role))
         given = {argument.name for argument in arguments}
         for role, place in shape.roles.items():
@@ -199,6 +190,12 @@ class _Binder:
         name = name or fail(f"{call.name} needs a {role}, and {title} has no parameter for it")
         self.parameter(name)
         return name
+
+
+def _turn(draw: Draw, sign: int, rng: Random) -> Value:
+    """An angle to one side, said without the side."""
+    said = angle(abs(draw(rng).value), rng)
+    return Value(sign * said.value, said.text, said.short)
 
 
 def _no_draw(_rng: Any) -> Value:

@@ -3,55 +3,59 @@
 A clause is a phrase bound to what it stands for, a skill or a movement of several steps
 (words.toml), so that it is drawn as templates are. A frame is a template with slots for clauses,
 {M1} a movement, {F1} filters and {D1} perception skills, in the form that the slot asks for
-(`ing`, `with`, `passive`, `each`). `number` tells the slots of the clauses of one prompt apart.
+(`ing`, `with`, `passive`, `each`).
 """
 
 import functools
 import itertools
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import pick
-from planner_ft.data.task.binding import Bound, Source, bind
-from planner_ft.data.task.draw import Context
-from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase, phrase_text
-from planner_ft.data.task.steps import SHAPES, XY
-from planner_ft.data.templates import grammar
-from planner_ft.data.templates.grammar import Argument, Call, Nodes, Slot, Step, all_slots
+from planner_ft.data.numbers import Draw, pick
+from planner_ft.data.task.binding import Bound, bind
+from planner_ft.data.task.draw import Context, Drawing, Drawn, drawn
+from planner_ft.data.task.phrasebook import Phrasebook, phrase_text
+from planner_ft.data.task.steps import SHAPES, XY, Entry, plan_step
+from planner_ft.data.templates import grammar, render
+from planner_ft.data.templates.grammar import Argument, Call, Slot, Step, all_slots
 from planner_ft.data.templates.records import Template, read_templates
+from planner_ft.data.templates.render import PIECE, joined
 from planner_ft.data.values import draw_position
 from planner_ft.vocabulary.definition import Role
 
 WORDS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))
-_SLOT = re.compile(r"(?<=[{=?])[A-Za-z]\w*")
 
 
-def _template(book: Phrasebook, text: str, plan: str, number: int) -> tuple[Template, list[Any]]:
-    """A phrase as a template, and its slots, each with what it is called in the phrase."""
-    where, end = f"vocabulary {book.vocabulary.source}: phrase {text!r}", str(number or "")
-    text, plan = (_SLOT.sub(rf"\g<0>{end}", source) for source in (text, plan))
-    template = Template("", "train", text, plan, where)
-    keys = dict.fromkeys(slot.key for slot in all_slots(template.nodes) if not slot.sign)
-    return template, [(key, key.removesuffix(end)) for key in keys]
+def _template(book: Phrasebook, text: str, plan: str = "") -> Template:
+    where = f"vocabulary {book.vocabulary.source}: phrase {text!r}"
+    return Template("", "train", text, plan, where)
+
+
+def _clause(
+    book: Phrasebook, phrase: str, ing: bool, draws: Mapping[str, Draw], filled: str
+) -> Bound:
+    """A phrase without steps whose slots are called as what is `filled` with them calls them."""
+    template = _template(book, phrase_text(phrase, ing=ing))
+    bound = Bound(template, nodes=template.nodes, clause=True)
+    for key in (slot.key for slot in all_slots(bound.nodes) if not slot.sign):
+        bound.draws[key], bound.places[key] = draws[key], f"{filled}.{key}"
+    return bound
 
 
 @functools.cache
-def skill_clause(book: Phrasebook, name: str, phrase: str, ing: bool, number: int = 0) -> Bound:
+def skill_clause(book: Phrasebook, name: str, phrase: str, ing: bool) -> Bound:
     """The phrase for this skill."""
     entry = book.skills[name]
-    template, slots = _template(book, phrase_text(phrase, ing=ing), "", number)
-    bound = Bound(template, nodes=template.nodes, clause=True)
-    for key, own in slots:
-        draw = draw_position if own == XY else entry.draws[own]
-        several = own != XY and entry.skill.by_name[own].type == "texts"
-        bound.sources[key] = Source(draw, f"{name}.{own}", several)
-        bound.often[key] = entry.often.get(own, 1.0)
-    bound.steps = [Step(Call(name, tuple(Argument("slot", key, own) for key, own in slots)))]
+    bound = _clause(book, phrase, ing, {XY: draw_position, **entry.draws}, name)
+    bound.often = {key: entry.often.get(key, 1.0) for key in bound.draws}
+    for parameter in entry.skill.parameters:
+        if parameter.type == "texts":
+            bound.places[parameter.name] = ""
+    bound.steps = [Step(Call(name, tuple(Argument("slot", key, key) for key in bound.draws)))]
     return bound
 
 
@@ -59,10 +63,8 @@ def skill_clause(book: Phrasebook, name: str, phrase: str, ing: bool, number: in
 def lead_clause(book: Phrasebook, title: str, phrase: str, ing: bool) -> Bound:
     """The task in its own words ("search for the barge"), with the skill that it asks for."""
     entry = book.tasks[title]
-    template, slots = _template(book, phrase_text(phrase, ing=ing), "", 0)
-    bound = Bound(template, nodes=template.nodes, clause=True)
-    bound.sources = {key: Source(entry.draws[key], f"lead.{key}") for key, _own in slots}
-    if skill := entry.lead_skill:
+    bound = _clause(book, phrase, ing, entry.draws, "lead")
+    if skill := entry.config.get("lead_skill"):
         argument = Argument("slot", skill["from"], skill["parameter"])
         bound.steps = [Step(Call(skill["skill"], (argument,)))]
     return bound
@@ -70,7 +72,7 @@ def lead_clause(book: Phrasebook, title: str, phrase: str, ing: bool) -> Bound:
 
 @functools.lru_cache(maxsize=4096)
 def pattern_clause(
-    book: Phrasebook, title: str, pattern: str, phrase: str, ing: bool, number: int = 0
+    book: Phrasebook, title: str, pattern: str, phrase: str, ing: bool
 ) -> Bound | None:
     """The phrase for a movement of several steps; None where task or vehicle lack what it needs."""
     how = book.patterns.get(pattern, {}).get("how", ())
@@ -85,13 +87,12 @@ def pattern_clause(
         # Of the arguments "name=slot", those whose slot the phrase has.
         words = ((word, word.rstrip(";").partition("=")[2]) for word in plan.split(" "))
         held = (word for word, key in words if not key or re.search(rf"{{{key}\b", text))
-        template, slots = _template(book, text, " ".join(held), number)
+        template = _template(book, text, " ".join(held))
         bound = bind(template, book.vocabulary.task[title], book)
     except (KeyError, grammar.TemplateError):
         return None
     bound.clause = True
-    for key, own in slots:
-        bound.sources[key] = bound.sources[key]._replace(place=f"{pattern}.{own}")
+    bound.places = {key: f"{pattern}.{key}" for key in bound.places}
     return bound
 
 
@@ -125,21 +126,13 @@ def frames(*, unseen: bool) -> dict[int, list[Template]]:
     return found
 
 
-def composed(context: Context) -> tuple[str, Bound] | None:
-    """The family and the template of a prompt for a task; None for a draw that comes to nothing."""
-    rng, book = context.rng, context.book
-    filler = _Filler(context)
-    frame = pick(frames(unseen=book.unseen)[filler.movements()], rng)
-    chosen = grammar.Chosen(frame.nodes, rng)
-    if not filler.fill(chosen.slots):
+def composed(context: Context) -> tuple[str, Drawn] | None:
+    """The family of a prompt for a task, and the prompt; None for a draw that comes to nothing."""
+    prompt = _Prompt(context)
+    if not prompt.fill() or not (made := drawn(joined(prompt.pieces()), prompt.steps)):
         return None
-    nodes = itertools.chain(*(filler.nodes(part) for part in chosen.parts))
-    bound = Bound(frame, nodes=tuple(nodes), clause=True)
-    for clause in itertools.chain(*filler.clauses.values()):
-        bound.add(clause)
-    bound.steps = [step for pattern in frame.steps for step in filler.steps(pattern)]
-    name = frame.id.rpartition("-")[0].removeprefix("unseen_")
-    return f"{name}/{filler.kind}{max(filler.moves, 1)}", bound
+    name = prompt.frame.id.rpartition("-")[0].removeprefix("unseen_")
+    return f"{name}/{prompt.kind}{max(prompt.moves, 1)}", made
 
 
 def _count(shares: Sequence[float], rng: Random) -> int:
@@ -147,69 +140,83 @@ def _count(shares: Sequence[float], rng: Random) -> int:
     return 1 + rng.choices(range(len(shares)), shares)[0]
 
 
-class _Filler:
-    """The clauses that fill the slots of one frame; `kind` names its first movement."""
+class _Prompt(render.Drawing):
+    """A frame with the clauses that fill its slots; `kind` names its first movement."""
 
     def __init__(self, context: Context) -> None:
         self.context, self.rng, self.book = context, context.rng, context.book
         self.task, self.entry = context.task, context.entry
-        self.clauses: dict[str, list[Bound]] = {}
-        self.kind, self.moves, self.numbers = "implied", 0, itertools.count()
+        self.clauses: dict[str, list[Drawing]] = {}
+        self.kind, self.moves = "implied", 0
         self.used: set[str] = set()
         lead = self.entry.lead if self.rng.random() < 0.8 else []
         self.lead = pick(lead, self.rng) if lead else ""
+        self.frame = pick(frames(unseen=self.book.unseen)[self._movements()], self.rng)
+        super().__init__(self.frame.nodes, {}, self.rng)
 
-    def movements(self) -> int:
+    def _movements(self) -> int:
         """How many movements the prompt asks for; without any, the vehicle holds its place."""
         still = 0.35 if self.task.arrival == "none" and self.task.pattern == "hold" else 0.02
         hold = "hold" in self.book.motions and self.rng.random() < (0.55 if self.lead else still)
         return 0 if hold else _count(WORDS["often"]["movements"], self.rng)
 
-    def fill(self, slots: Sequence[Slot]) -> bool:
+    def fill(self) -> bool:
         """Draw the clauses of all slots; whether there are some for each."""
-        moves = [slot.key for slot in slots if slot.base == "M"]
+        moves = [slot.key for slot in self.slots if slot.base == "M"]
         self.moves, main = len(moves), pick(moves, self.rng) if moves else ""
-        for slot in slots:
+        bounds: dict[str, list[Bound]] = {}
+        for slot in self.slots:
             form = "".join(slot.options)
             if slot.base == "M":
                 kind, clause = self._movement(form, main=slot.key == main)
                 self.kind = kind if slot.key == moves[0] else self.kind
-                self.clauses[slot.key] = [clause]
+                bounds[slot.key] = [clause]
             elif slot.base in ROLES:
-                self.clauses[slot.key] = list(self._group(slot.base, form))
-        return all(self.clauses.values())
+                bounds[slot.key] = list(self._group(slot.base, form))
+        for bound in itertools.chain(*bounds.values()):
+            self.context.prepare(bound)
+        for key, of_slot in bounds.items():
+            self.clauses[key] = [Drawing(bound, self.context) for bound in of_slot]
+        return all(bounds.values())
 
-    def nodes(self, part: grammar.Part) -> Iterator[grammar.Node]:
-        """What stands in the prompt for a part of the frame."""
-        if isinstance(part, str):
-            yield part
-        elif part.key == STEP:
-            steps = [step for key in self.clauses if key[0] == "M" for step in self._of(key)]
+    def spoken(self, slot: Slot, _place: int) -> Iterator[PIECE]:
+        """The clauses of a slot."""
+        if slot.key == STEP:
+            every = (
+                clause for key in self.clauses if key[0] == "M" for clause in self.clauses[key]
+            )
+            steps = [step for clause in every for step in clause.bound.steps]
             long = any(step.each or step.call.name in SHAPES for step in steps)
-            yield "part" if long or len(steps) > self.moves else "step"
-        else:
-            clauses, each = self.clauses[part.key], "each" in part.options
-            last = ". " if each else pick((" and ", " and ", ", and "), self.rng)
-            for place, clause in enumerate(clauses):
-                if place:
-                    yield last if each or place == len(clauses) - 1 else ", "
-                yield from clause.nodes
-                if part.base != "M":
-                    yield from self._repeated(clause)
+            yield "part" if long or len(steps) > self.moves else "step", False
+            return
+        clauses, each = self.clauses[slot.key], "each" in slot.options
+        last = ". " if each else pick((" and ", " and ", ", and "), self.rng)
+        for number, clause in enumerate(clauses):
+            if number:
+                yield last if each or number == len(clauses) - 1 else ", ", False
+            yield from clause.pieces()
+            if slot.base != "M":
+                yield self._repeated(clause.bound), False
 
-    def steps(self, frame: Step) -> Iterator[Step]:
-        """The steps that a step of the frame stands for."""
-        filters, perceptions = (
-            tuple(step.call for call in calls for step in self._of(call.name))
-            for calls in (frame.filters, frame.perceptions)
-        )
-        for step in self._of(frame.call.name) or [Step(Call(self.book.motions["hold"]))]:
-            beside = replace(step, filters=filters, perceptions=perceptions)
-            each = step.each and replace(step.each, filters=filters, perceptions=perceptions)
-            yield replace(beside, each=each)
-
-    def _of(self, key: str) -> list[Step]:
-        return [step for clause in self.clauses.get(key, ()) for step in clause.steps]
+    def steps(self) -> list[Entry]:
+        """The steps of the movements, each with the skills beside it."""
+        found: list[Entry] = []
+        for step in self.frame.steps:
+            filters, perceptions = (
+                [
+                    skill
+                    for call in calls
+                    for clause in self.clauses.get(call.name, ())
+                    for skill in clause.plan.skills()
+                ]
+                for calls in (step.filters, step.perceptions)
+            )
+            for clause in self.clauses.get(step.call.name, ()):
+                found += clause.plan.steps((filters, perceptions))
+            if step.call.name not in self.clauses:
+                vocabulary, hold = self.book.vocabulary, self.book.motions["hold"]
+                found.append(plan_step(hold, {}, filters, perceptions, vocabulary))
+        return found
 
     def _movement(self, form: str, *, main: bool) -> tuple[str, Bound]:
         """A movement with its kind: the task's own, mostly, if `main`."""
@@ -233,20 +240,18 @@ class _Filler:
         pause = self.book.patterns.get(name, {}).get("pause")
         if pause and self.rng.random() < PAUSE:
             phrase += pick(pause, self.rng)
-        ing, number = form == "ing", next(self.numbers)
-        return pattern_clause(self.book, title, name, phrase, ing, number) if phrase else None
+        return pattern_clause(self.book, title, name, phrase, form == "ing") if phrase else None
 
     def _skill(self, name: str, form: str) -> tuple[str, Bound]:
         """A phrase for the skill in this form, at times one of the task's own."""
         entry, task = self.book.skills[name], self.entry
         phrases: Sequence[str] = entry.phrases.get(form) or entry.phrases[""]
-        own: Sequence[str] = task.phrases if name == task.phrases_for else []
+        own: Sequence[str] = task.phrases if name == task.config.get("phrases_for") else []
         if entry.skill.motion == "goto":
             own = self.book.pattern("goto", self.task.title)
         if own and self.rng.random() < 0.6:
             phrases = own
-        phrase, ing = pick(phrases, self.rng), form == "ing"
-        clause = skill_clause(self.book, name, phrase, ing, next(self.numbers))
+        clause = skill_clause(self.book, name, pick(phrases, self.rng), form == "ing")
         return entry.skill.motion or name, clause
 
     def _group(self, base: str, form: str) -> Iterator[Bound]:
@@ -277,9 +282,9 @@ class _Filler:
         self.used.update(names)
         yield from (self._skill(name, form)[1] for name in names)
 
-    def _repeated(self, clause: Bound) -> Nodes:
+    def _repeated(self, clause: Bound) -> str:
         repeat = self.book.sentences.get("repeat")
         repeats = any(self.book.skills[step.call.name].repeats for step in clause.steps)
         if not (repeat and repeats and self.rng.random() < REPEATED):
-            return ()
-        return (" ", *parse_phrase(pick(repeat, self.rng)))
+            return ""
+        return f" {self.context.say(pick(repeat, self.rng))}"

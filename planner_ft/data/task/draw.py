@@ -4,15 +4,16 @@ the prompt has used, the template's values, the text put together, the steps wor
 
 import itertools
 import re
+from collections.abc import Callable, Iterator
 from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import Value, angle, count_text, length, pick, rotation
-from planner_ft.data.task.binding import Bound, Source
+from planner_ft.data.numbers import Value, count_text, length, pick, rotation
+from planner_ft.data.task.binding import SIDES, Bound
 from planner_ft.data.task.phrasebook import Phrasebook, parse_phrase
 from planner_ft.data.task.steps import DRAWS, SHAPES, Entry, Plan, grid_size, line_legs
-from planner_ft.data.templates import grammar
-from planner_ft.data.templates.grammar import Argument, Call, Chosen, Slot, base_of
+from planner_ft.data.templates import grammar, render
+from planner_ft.data.templates.grammar import Argument, Call, Slot
 from planner_ft.data.templates.render import PIECE, after_article, bare, joined
 from planner_ft.vocabulary.definition import Task
 
@@ -23,6 +24,8 @@ _WAY = re.compile(r"\b(left|right|port|starboard|(anti|counter-)?clockwise)\b", 
 LEFT = (" to the left", " to port", " anticlockwise")
 RIGHT = (" to the right", " to starboard", " clockwise")
 UNRESOLVED = 0.05  # share of samples whose position is not known yet
+Drawn = tuple[str, dict[str, Any], set[str]]
+"""A prompt with its values marked, its plan, and the skills that run beside its movements."""
 
 
 class Context:
@@ -33,6 +36,8 @@ class Context:
         self.entry = book.tasks[task.title]
         self.values: dict[str, Value] = {}
         self.used: set[str] = set()
+        self.said: dict[str, list[Any]] = {}
+        """The values of the prompt so far by kind, which differ."""
         for parameter in task.parameters:
             if parameter.required or rng.random() < 0.75:
                 self.require(parameter.name)
@@ -64,9 +69,9 @@ class Context:
 
     def refer(self, name: str) -> str:
         """Words for the task parameter's value."""
-        phrases = self.entry.refer[name]
-        if self.entry.unresolved and self.unresolved(name) and self.rng.random() < 0.7:
-            phrases = self.entry.unresolved
+        phrases, unresolved = self.entry.refer(name), self.entry.config.get("unresolved")
+        if unresolved and self.unresolved(name) and self.rng.random() < 0.7:
+            phrases = unresolved
         return self.say(pick(phrases, self.rng))
 
     def say(self, phrase: str) -> str:
@@ -89,23 +94,49 @@ class Context:
             return self.book.decor[name](self.rng).text
         return self.book.lexicon.entry(name, self.rng)
 
+    def prepare(self, bound: Bound) -> None:
+        """Have the task parameters that a text refers to; a position that is calculated with is
+        known.
+        """
+        for name in sorted(bound.params):
+            self.require(name)
+            self.used.add(name)
+        shapes = [step.call for step in bound.steps if step.call.name in SHAPES]
+        place = self.task.position_parameter
+        if place in bound.located:
+            self.used.discard(place)
+            self.resolve(place)
+            self.used.add(place)
+        elif shapes or not bound.clause:
+            self.resolve(place)
+        for argument in itertools.chain(*(call.arguments for call in shapes)):
+            if argument.kind == "param" and argument.name == "count":
+                self.values[str(argument.value)] = DRAWS["Sectors", "count"](self.rng)
+
     def parameters(self) -> dict[str, Any]:
         """The task's parameters as they stand in the record, in the order of the definition."""
         return {name: self.values[name].value for name in self.task.by_name if name in self.values}
 
 
-def draw_template(bound: Bound, context: Context) -> tuple[str, dict[str, Any], set[str]] | None:
-    """The prompt with its values marked, its plan and skills; None for a draw without a plan."""
+def draw_template(bound: Bound, context: Context) -> Drawn | None:
+    """A prompt of a template; None for a draw without a plan."""
+    context.prepare(bound)
     drawing = Drawing(bound, context)
-    text = joined(drawing.pieces(), small=grammar.is_small(drawing.parts) and not bound.clause)
+    text = joined(drawing.pieces(), small=grammar.is_small(drawing.parts))
+    return drawn(text, drawing.plan.steps)
+
+
+def drawn(text: str, steps: Callable[[], list[Entry]]) -> Drawn | None:
+    """The prompt with what its steps come to; None where they make no plan."""
     try:
-        steps = drawing.plan.steps()
+        sequence = steps()
     except (ValueError, ZeroDivisionError):
         return None
-    beside = [step[key] for step in steps for key in ("filter_skills", "perception_skills")]
-    if not steps or any(map(twice, beside)):
+    beside = [step[key] for step in sequence for key in ("filter_skills", "perception_skills")]
+    if not sequence or any(map(twice, beside)):
         return None
-    return text, {"skill_sequence": steps}, {call["name"] for calls in beside for call in calls}
+    skills = {call["name"] for calls in beside for call in calls}
+    return text, {"skill_sequence": sequence}, skills
 
 
 def twice(calls: list[Entry]) -> bool:
@@ -117,47 +148,29 @@ def twice(calls: list[Entry]) -> bool:
     )
 
 
-class Drawing(Chosen):
+class Drawing(render.Drawing):
     """The values of one template or clause and what was chosen of the text."""
 
     def __init__(self, bound: Bound, context: Context) -> None:
         self.bound, self.context, self.rng, self.book = bound, context, context.rng, context.book
-        self.values: dict[str, Value] = {}
         self.referred: dict[str, str] = {}
-        self._task_values()
         given = frozenset(
             key
             for key, share in bound.often.items()
-            if self.rng.random() < share or context.linked(bound.sources[key].place)
+            if self.rng.random() < share or context.linked(bound.places[key])
         )
-        super().__init__(bound.nodes, self.rng, given)
+        super().__init__(bound.nodes, bound.draws, self.rng, given)
         for step in bound.steps:
             if step.call.name in ("Grid", "Line"):
                 self._sizes(step.call)
         self.plan = Plan(bound, self.book, self.labels | self.said, self._value)
         for slot in self.slots:
-            if not slot.sign and slot.key not in self.values:
-                self.values[slot.key] = self._draw(slot)
+            if not slot.sign:
+                if slot.key not in self.values:
+                    self.values[slot.key] = self._linked(slot) or self._new(slot)
+                context.said.setdefault(slot.base, []).append(self.values[slot.key].value)
 
     # ------------------------------------------------------------ values
-
-    def _task_values(self) -> None:
-        """Task parameters of the text are there; positions that are calculated with are known."""
-        context, bound = self.context, self.bound
-        for name in sorted(bound.params):
-            context.require(name)
-            context.used.add(name)
-        shapes = [step.call for step in bound.steps if step.call.name in SHAPES]
-        place = context.task.position_parameter
-        if place in bound.located:
-            context.used.discard(place)
-            context.resolve(place)
-            context.used.add(place)
-        elif shapes or not bound.clause:
-            context.resolve(place)
-        for argument in itertools.chain(*(call.arguments for call in shapes)):
-            if argument.kind == "param" and argument.name == "count":
-                context.values[str(argument.value)] = DRAWS["Sectors", "count"](self.rng)
 
     def _sizes(self, call: Call) -> None:
         """Sizes of a grid, or legs of a line, that fill each other, in the slots and in the task's
@@ -170,7 +183,7 @@ class Drawing(Chosen):
         if call.name == "Grid":
             axis: Any = arguments["axis"].value if "axis" in arguments else "y"
             if "axis" in arguments and arguments["axis"].kind == "slot":
-                self.values[axis] = self.bound.sources[axis].draw(rng)
+                self.values[axis] = self.draws[axis](rng)
                 axis = self.values[axis].value
             sizes = grid_size(rng, free=axis == "y")
         elif not arguments.keys().isdisjoint(("spacing", "count")):
@@ -191,32 +204,24 @@ class Drawing(Chosen):
                 context.values[name] = value
                 context.used.add(name)
 
-    def _draw(self, slot: Slot) -> Value:
-        """A value for the slot: the task's own, now and then, or a new one."""
-        source, sign = self.bound.sources[slot.key], self.bound.signs.get(slot.key)
-        value = self._linked(slot, source) or self._new(slot, source)
-        if sign:
-            size = abs(value.value)
-            said = angle(size, self.rng)
-            value = Value(sign * size, said.text, said.short)
-        return value
-
-    def _linked(self, slot: Slot, source: Source) -> Value | None:
+    def _linked(self, slot: Slot) -> Value | None:
         """The task's own value; in a clause it may only be referred to."""
-        context, clause = self.context, self.bound.clause
-        name = context.linked(source.place) if clause or self.rng.random() < LINKED else None
-        if not name or source.several:
+        context, clause, place = self.context, self.bound.clause, self.bound.places[slot.key]
+        name = context.linked(place) if clause or self.rng.random() < LINKED else None
+        if not name:
             return None
         value, unresolved = context.values[name], context.unresolved(name)
         if unresolved and (slot.options or not clause):
             return None
-        if source.place == "sectors.sectors":
-            value = context.values[name] = source.draw(self.rng)
-        if source.place.endswith("delta_yaw"):
+        if place == "sectors.sectors":
+            value = context.values[name] = self.draws[slot.key](self.rng)
+        if place.endswith("delta_yaw"):
             value = rotation(value.value, self.rng)
         if clause:
             if unresolved or (
-                not slot.options and name not in context.entry.stated and self.rng.random() < REFER
+                not slot.options
+                and name not in context.entry.config.get("stated", ())
+                and self.rng.random() < REFER
             ):
                 self.referred[slot.key] = context.refer(name)
             elif not value.has(slot.options):
@@ -224,35 +229,25 @@ class Drawing(Chosen):
         context.used.add(name)
         return value
 
-    def _new(self, slot: Slot, source: Source) -> Value:
+    def _new(self, slot: Slot) -> Value:
         """A value that differs from those of the same kind."""
-        others = [one.value for key, one in self.values.items() if base_of(key) == slot.base]
-        for _ in range(9):
-            value = source.draw(self.rng)
-            if value.value not in others and (not self.bound.clause or value.has(slot.options)):
-                break
-        return value
+        options = slot.options if self.bound.clause else render.PLAIN
+        return self.new(slot.key, self.context.said.get(slot.base, ()), options)
 
     # ------------------------------------------------------------ text
 
-    def pieces(self) -> list[PIECE]:
-        """The prompt as pieces of text, and whether each is a value."""
-        pieces: list[PIECE] = []
-        for place, part in enumerate(self.parts):
-            if isinstance(part, str):
-                pieces.append((part, False))
-            elif part.sign == "_":
-                pieces.append((self.context.word(part.key), True))
-            elif part.sign == "param" or part.key in self.referred:
-                said = self.referred.get(part.key) or self.context.refer(part.key)
-                follows = pieces and after_article(pieces[-1][0])
-                pieces.append((bare(said) if follows else said, False))
-            elif part.sign == "~":
-                wrong = self._new(part, self.bound.sources[part.key])
-                pieces.append((wrong.worded(part.options), True))
-            elif not part.sign:
-                pieces.append((self._said(part, place), True))
-        return pieces
+    def spoken(self, slot: Slot, place: int) -> Iterator[PIECE]:
+        """A value as it is stated or referred to, or words that are none."""
+        if slot.sign == "_":
+            yield self.context.word(slot.key), True
+        elif slot.sign == "param" or slot.key in self.referred:
+            said = self.referred.get(slot.key) or self.context.refer(slot.key)
+            before = self.parts[place - 1] if place else ""
+            yield bare(said) if isinstance(before, str) and after_article(before) else said, False
+        elif slot.sign == "~":
+            yield self._new(slot).worded(slot.options), True
+        else:
+            yield self._said(slot, place), True
 
     def _said(self, slot: Slot, place: int) -> str:
         """The value's wording: bare in quotation marks, with the side where the text has none."""
@@ -262,7 +257,7 @@ class Drawing(Chosen):
         if before[-1:] in ("'", '"') and after[:1] == before[-1:]:
             return str(value.value)
         text = value.worded(slot.options)
-        if slot.key in self.bound.signs and "adj" not in slot.options:
+        if SIDES.keys() & self.asked(slot.key) and "adj" not in slot.options:
             clause = re.split(r"[.;:]", before)[-1][-40:], re.split(r"[.;:]", after)[0][:40]
             if not any(_WAY.search(text) for text in clause):
                 text += pick(LEFT if value.value < 0 else RIGHT, self.rng)

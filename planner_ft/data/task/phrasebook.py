@@ -19,8 +19,9 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from planner_ft.data.numbers import Draw
 from planner_ft.data.templates.grammar import Nodes, TemplateError, all_slots, parse_text
-from planner_ft.data.values import FALLBACK, MADE_UP, Draw, WordLists, number_space, value_space
+from planner_ft.data.values import FALLBACK, MADE_UP, WordLists, number_space, value_space
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import PHRASES, ROLES, Parameter, Skill, Task, Vocabulary
@@ -66,27 +67,25 @@ class SkillEntry:
 
     def __init__(self, skill: Skill, config: dict[str, Any], book: Phrasebook) -> None:
         self.skill, self.draws = skill, _draws(skill, config, book.lexicon)
-        often = config.get("often", {})
-        self.often = {
-            item.name: 1.0 if item.required else float(often.get(item.name, 0.5))
-            for item in skill.parameters
-        }
-        known = {*skill.by_name, "xy"} if skill.motion == "goto" else set(skill.by_name)
+        shares, items = config.get("often", {}), skill.parameters
+        self.often = {one.name: 1.0 if one.required else shares.get(one.name, 0.5) for one in items}
+        """How often an optional part of a phrase stands, by parameter."""
+        known = {*skill.by_name, *(("xy",) if skill.motion == "goto" else ())}
         for phrase in (one for key in KINDS for one in config.get(key, ())):
             for name in set(_values(phrase)) - known:
                 raise PlannerError(
                     f"vocabulary {book.vocabulary.source}: phrase {phrase!r}: {skill.name} has no"
                     f" parameter {name}"
                 )
-        own = (book.unseen and config.get("unseen")) or config.get("phrases")
+        own = (book.unseen and config.get("unseen")) or config.get("phrases", [])
         self.phrases: dict[str, list[str]] = {
             "": own or [_generic_phrase(skill)],
             "with": config.get("with", []),
             "passive": [] if book.unseen else config.get("passive", []),
         }
-        self.bare = [one for one in own or () if not _values(one)]
+        self.bare = [one for one in own if not _values(one)]
         self.none: list[str] = config.get("none", [])
-        self.several = bool(config.get("several", True)) and bool(skill.parameters)
+        self.several = bool(config.get("several", True)) and bool(items)
         self.repeats = bool(config.get("repeats"))
 
 
@@ -94,26 +93,20 @@ class TaskEntry:
     """The phrases, links and parameter spaces of one task."""
 
     def __init__(self, task: Task, config: dict[str, Any], book: Phrasebook) -> None:
-        self.draws = _draws(task, config, book.lexicon)
-        refer = config.get("refer", {})
-        self.refer: dict[str, list[str]] = {
-            name: refer.get(name, [f"the given {spaced(name)}"]) for name in task.by_name
-        }
+        self.config, self.draws = config, _draws(task, config, book.lexicon)
+        unseen = config.get("lead_unseen") if book.unseen else None
+        self.lead: list[str] = unseen or config.get("lead", [])
+        self.phrases: list[str] = [] if book.unseen else config.get("phrases", [])
         self.links: dict[str, str] = {}
         """The task parameter that fills a place: "StationKeep.time", "square.center"."""
         for parameter in task.parameters:
             own = config.get("links", {}).get(parameter.name)
             for place in own or _default_links(task, parameter, book.vocabulary):
                 self.links.setdefault(place, parameter.name)
-        unseen = config.get("lead_unseen") if book.unseen else None
-        self.lead: list[str] = unseen or config.get("lead", [])
-        self.lead_skill: dict[str, str] = config.get("lead_skill", {})
-        self.stated = frozenset(config.get("stated", ()))
-        self.phrases: list[str] = [] if book.unseen else config.get("phrases", [])
-        self.phrases_for: str | None = config.get("phrases_for")
-        self.openers: list[str] = config.get("openers", [])
-        self.unresolved: list[str] = config.get("unresolved", [])
-        self.patterns: dict[str, list[str]] = config.get("pattern_phrases", {})
+
+    def refer(self, name: str) -> list[str]:
+        """Phrases for a value that stands in the task's parameters alone."""
+        return self.config.get("refer", {}).get(name) or [f"the given {spaced(name)}"]
 
 
 class Phrasebook:
@@ -151,7 +144,8 @@ class Phrasebook:
         general = self.patterns.get(name, {})
         if self.unseen and general.get("unseen"):
             return list(general["unseen"])
-        return [*self.tasks[title].patterns.get(name, []) * 2, *general.get("phrases", [])]
+        own = self.tasks[title].config.get("pattern_phrases", {}).get(name, [])
+        return [*own * 2, *general.get("phrases", [])]
 
 
 @functools.lru_cache(maxsize=8)

@@ -22,7 +22,7 @@ from collections.abc import Iterator, Sequence
 from random import Random
 from typing import Any, Literal, get_args
 
-from planner_ft.data.clauses import Beside
+from planner_ft.data.mission_plan import Beside
 from planner_ft.data.missions import missions_with_skills
 from planner_ft.data.numbers import pick
 from planner_ft.data.task.binding import Bound, bind, binding, titles
@@ -70,7 +70,7 @@ def sample_tasks(
     seen: set[int] = set()
     misses = 0
     for number in itertools.count() if count is None else range(count):
-        whole = draws.is_whole()
+        whole = bool(draws.templates) and rng.random() < draws.share
         while True:
             if drawn := draws.record(whole=whole):
                 key = hash((drawn["task"], repr(drawn["parameters"]), drawn["prompt"]))
@@ -102,26 +102,22 @@ class _Draws:
             )
         self.share = 1.0 if subjects else TEMPLATES
 
-    def is_whole(self) -> bool:
-        """Whether the next sample comes from a whole-prompt template."""
-        return bool(self.templates) and self.rng.random() < self.share
-
     def record(self, *, whole: bool) -> dict[str, Any] | None:
         """One record without id, from a whole-prompt template or put together. Raises PlannerError
         when the plan is not strictly valid.
         """
-        book, rng, bound = self.book, self.rng, None
-        vocabulary = book.vocabulary
+        book, rng, vocabulary = self.book, self.rng, self.book.vocabulary
         if whole:
             template = pick(pick(self.templates, rng), rng)
             title = pick(titles(template, vocabulary), rng)
             if (bound := binding(template, title, book)) is None:
                 return None
             context = Context(book, vocabulary.task[title], rng)
+            drawn = draw_template(bound, context)
         else:
             context = Context(book, pick(vocabulary.tasks, rng), rng)
-            family, bound = composed(context) or ("", None)
-        if bound is None or (drawn := draw_template(bound, context)) is None:
+            family, drawn = composed(context) or ("", None)
+        if drawn is None:
             return None
         (said, expected, skills), title = drawn, context.task.title
         splits: tuple[str, ...] = (self.split,)
@@ -164,7 +160,7 @@ def opened(text: str, c: Context) -> str:
     command = text.partition(" ")[0].lower() in c.book.verbs
     if c.book.unseen or not command or c.rng.random() < 0.85:
         return text
-    own = c.entry.openers if c.rng.random() < 0.7 else []
+    own = c.entry.config.get("openers", []) if c.rng.random() < 0.7 else []
     opener = pick(own or WORDS["openers"], c.rng)
     return f"{opener[0].upper()}{opener[1:]} {text[0].lower()}{text[1:]}"
 
@@ -254,10 +250,10 @@ def task_record(
     bound = next((bound for bound, labels in meanings if labels <= known.keys()), None)
     if bound is None:
         return None
-    book, added_ = phrasebook(vocabulary, unseen=False), (filters, perceptions)
-    plan = Plan(bound, book, known.keys(), lambda one: known.get(str(one.value)), added_)
+    book = phrasebook(vocabulary, unseen=False)
+    plan = Plan(bound, book, known.keys(), lambda one: known.get(str(one.value)))
     try:
-        expected = {"skill_sequence": plan.steps()}
+        expected = {"skill_sequence": plan.steps((filters, perceptions))}
     except ValueError:
         return None
     long = len(expected["skill_sequence"]) > LONGEST

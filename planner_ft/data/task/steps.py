@@ -11,10 +11,10 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data import numbers, values
-from planner_ft.data.numbers import COMPASS, Value, count_text, pick
+from planner_ft.data.numbers import COMPASS, Draw, Value, count_text, pick
 from planner_ft.data.templates.grammar import Argument, Call, fail
 from planner_ft.data.templates.grammar import Step as Pattern
-from planner_ft.data.values import TABLE, Draw
+from planner_ft.data.values import TABLE
 from planner_ft.facts import geometry as g
 from planner_ft.facts.geometry import tidy
 from planner_ft.vocabulary.definition import Vocabulary
@@ -224,7 +224,7 @@ def _stands(at: str, number: int, count: int) -> bool:
 
 class Plan:
     """The steps of a bound template. `labels` are those that were chosen; `given` has the value of
-    a slot or a task parameter, None where it was not said; `added` runs in every step.
+    a slot or a task parameter, None where it was not said.
     """
 
     def __init__(
@@ -233,15 +233,20 @@ class Plan:
         book: Phrasebook,
         labels: Collection[str],
         given: Callable[[Argument], Any],
-        added: Beside = ([], []),
     ) -> None:
         self.bound, self.book, self.labels, self.given = bound, book, labels, given
-        self.added = added
         self.vocabulary = book.vocabulary
+        self.added: Beside = ([], [])
 
-    def steps(self) -> list[Entry]:
-        """The steps. Raises ValueError when what was chosen makes no plan."""
-        everywhere = self.bound.everywhere
+    def skills(self) -> list[Entry]:
+        """The skills of a clause, which run in the steps of others."""
+        return [self._entry(step.call) for step in self.bound.steps]
+
+    def steps(self, added: Beside = ([], [])) -> list[Entry]:
+        """The steps, in which what is added runs, too. Raises ValueError when what was chosen makes
+        no plan.
+        """
+        self.added, everywhere = added, self.bound.everywhere
         common = self.beside(everywhere) if everywhere else ([], [])
         return [
             entry
@@ -268,7 +273,7 @@ class Plan:
         """Filters and perception skills at waypoint `number`, counted from 0, of `count`."""
         filters, perceptions = (
             [
-                entry_of(call.name, self._parameters(call), self.vocabulary)
+                self._entry(call)
                 for call in calls
                 if _stands(call.at, number, count) and (not call.label or call.label in self.labels)
             ]
@@ -276,16 +281,17 @@ class Plan:
         )
         return filters, perceptions
 
+    def _entry(self, call: Call) -> Entry:
+        return entry_of(call.name, self._parameters(call), self.vocabulary)
+
     def _moves(self, call: Call) -> Sequence[Step]:
         """Navigation skills with their parameters. Raises ValueError when lanes do not fill."""
         shape = SHAPES.get(call.name)
         if shape is None:
             return [(call.name, self._parameters(call))]
-        said = ((argument.name, self._value(argument)) for argument in call.arguments)
-        values = {name: value for name, value in said if value is not None}
         name = self.book.motions[shape.motion]
         try:
-            found = shape.expand({**values, "home": self.vocabulary.home})
+            found = shape.expand({**self._values(call), "home": self.vocabulary.home})
         except KeyError as error:
             raise ValueError(f"{call.name} has no {error}") from None
         if shape.motion == "goto":
@@ -294,18 +300,18 @@ class Plan:
         return [(name, {key: value}) for value in found]
 
     def _parameters(self, call: Call) -> dict[str, Any]:
-        parameters: dict[str, Any] = {}
-        known = self.vocabulary.skill[call.name].by_name
-        for argument in call.arguments:
-            value = self._value(argument)
-            if value is None:
-                continue
-            if argument.name == XY:
-                parameters["x"], parameters["y"] = value
-            else:
-                as_list = known[argument.name].type == "texts" and not isinstance(value, list)
-                parameters[argument.name] = [value] if as_list else value
-        return parameters
+        values, known = self._values(call), self.vocabulary.skill[call.name].by_name
+        if XY in values:
+            values["x"], values["y"] = values.pop(XY)
+        for name, value in values.items():
+            if known[name].type == "texts" and not isinstance(value, list):
+                values[name] = [value]
+        return values
+
+    def _values(self, call: Call) -> dict[str, Any]:
+        """The values of a call that are given."""
+        given = ((argument.name, self._value(argument)) for argument in call.arguments)
+        return {name: value for name, value in given if value is not None}
 
     def _value(self, argument: Argument) -> Any:
         if argument.kind == "literal":

@@ -184,17 +184,6 @@ def choose(
     return parts
 
 
-class Chosen:
-    """A wording of a text: its parts, the labels and the slots in it."""
-
-    def __init__(self, nodes: Nodes, rng: Random, given: frozenset[str] = frozenset()) -> None:
-        self.parts = choose(nodes, rng, [], given)
-        slots = [part for part in self.parts if isinstance(part, Slot)]
-        self.slots = [slot for slot in slots if slot.sign != "?"]
-        self.labels = {slot.key for slot in slots if slot.sign == "?"}
-        self.said = {slot.key for slot in slots if not slot.sign}
-
-
 def is_small(nodes: Sequence[Node]) -> bool:
     """Whether a text is written without capitals."""
     return bool(nodes) and isinstance(nodes[0], str) and nodes[0][:1].islower()
@@ -225,6 +214,10 @@ class Call:
     arguments: tuple[Argument, ...] = ()
     label: str = ""
     at: str = ""
+
+    def of(self, kind: str) -> list[str]:
+        """The values of the arguments of a kind."""
+        return [str(one.value) for one in self.arguments if one.kind == kind]
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,17 +6,21 @@ task prompts stay clean, some arrive as keyboards, telegrams, hurry and radio le
 """
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import COMPASS, ONES, TENS, words
+from planner_ft.data.numbers import COMPASS, ONES, TENS, Draw, Value, words
+from planner_ft.data.templates.grammar import Nodes, Slot, choose
 from planner_ft.support.files import read_json
 
 VALUE_OPEN, VALUE_CLOSE = "\x02", "\x03"
 PIECE = tuple[str, bool]
 
+PLAIN: frozenset[str] = frozenset()
+TRIES = 60
+"""Draws of a value after which any is taken."""
 MARKS = ",.;:!?"
 Change = Callable[[list[PIECE], Random], list[PIECE]]
 LISTS: dict[str, Any] = read_json(Path(__file__).with_suffix(".json"))
@@ -115,6 +119,55 @@ def skeleton(text: str) -> str:
     return "".join("_" if value else piece for piece, value in segments(text))
 
 
+# ---------------------------------------------------------------- a template in the making
+
+
+class Drawing:
+    """A wording of a template: its `parts`, the `slots` in them, the `labels` that were chosen and
+    the keys of the slots that are `said`. `draws` makes a new value of each; optional parts stand
+    where their slots are `given`.
+    """
+
+    def __init__(
+        self, nodes: Nodes, draws: Mapping[str, Draw], rng: Random, given: frozenset[str] = PLAIN
+    ) -> None:
+        self.draws, self.rng = draws, rng
+        self.values: dict[str, Value] = {}
+        self.parts = choose(nodes, rng, [], given)
+        slots = [part for part in self.parts if isinstance(part, Slot)]
+        self.slots = [slot for slot in slots if slot.sign != "?"]
+        self.labels = {slot.key for slot in slots if slot.sign == "?"}
+        self.said = {slot.key for slot in slots if not slot.sign}
+
+    def new(
+        self, key: str, taken: Collection[object] = (), options: frozenset[str] = PLAIN
+    ) -> Value:
+        """A value of a slot that is none of those taken and has the wordings that are asked for;
+        any, where many draws find none.
+        """
+        for _ in range(TRIES):
+            value = self.draws[key](self.rng)
+            if value.value not in taken and value.has(options):
+                break
+        return value
+
+    def asked(self, key: str) -> frozenset[str]:
+        """The options of all mentions of a slot."""
+        return PLAIN.union(*(slot.options for slot in self.slots if slot.key == key))
+
+    def pieces(self) -> Iterator[PIECE]:
+        """The text in pieces, each with whether it is a value."""
+        for place, part in enumerate(self.parts):
+            if isinstance(part, str):
+                yield part, False
+            elif part.sign != "?":
+                yield from self.spoken(part, place)
+
+    def spoken(self, slot: Slot, place: int) -> Iterator[PIECE]:
+        """What stands for the slot at a place of the parts."""
+        raise NotImplementedError
+
+
 # ---------------------------------------------------------------- noise
 
 
@@ -125,7 +178,8 @@ def noisy(text: str, rng: Random, *, keep: frozenset[str] = frozenset(), shout: 
     roll = rng.random()
     for share, change in CHANGES:
         if roll < share:
-            changed = _joined(change(_split(text, keep), rng))
+            pieces = change(_split(text, keep), rng)
+            changed = "".join(word for word, _stays in pieces).strip(" ")
             capitals = change is telegraphed and shout and "°" not in changed
             return changed.upper() if capitals and rng.random() < 0.45 else changed
         roll -= share
@@ -142,10 +196,6 @@ def _split(text: str, keep: frozenset[str]) -> list[PIECE]:
             words = [piece for word in segment.split(" ") for piece in (" ", word)][1:]
             pieces += [(word, word.strip(MARKS) in keep) for word in words if word]
     return pieces
-
-
-def _joined(pieces: list[PIECE]) -> str:
-    return "".join(piece for piece, _stays in pieces).strip(" ")
 
 
 def _each(pieces: list[PIECE], change: Callable[[str], str]) -> list[PIECE]:
