@@ -17,7 +17,7 @@ from typing import Any
 
 from planner_ft.data.numbers import Draw, pick
 from planner_ft.data.task.binding import Bound, bind
-from planner_ft.data.task.draw import Context, Drawing, Drawn, drawn
+from planner_ft.data.task.draw import Context, Drawing, Drawn, steps_of
 from planner_ft.data.task.phrasebook import Phrasebook, phrase_text
 from planner_ft.data.task.steps import SHAPES, XY, Entry, plan_step
 from planner_ft.data.templates import grammar, render
@@ -126,13 +126,14 @@ def frames(*, unseen: bool) -> dict[int, list[Template]]:
     return found
 
 
-def composed(context: Context) -> tuple[str, Drawn] | None:
-    """The family of a prompt for a task, and the prompt; None for a draw that comes to nothing."""
+def composed(context: Context) -> Drawn | None:
+    """A prompt for a task; None for a draw that comes to nothing."""
     prompt = _Prompt(context)
-    if not prompt.fill() or not (made := drawn(joined(prompt.pieces()), prompt.steps)):
+    if not prompt.fill():
         return None
+    text, steps = joined(prompt.pieces()), steps_of(prompt.steps)
     name = prompt.frame.id.rpartition("-")[0].removeprefix("unseen_")
-    return f"{name}/{prompt.kind}{max(prompt.moves, 1)}", made
+    return Drawn(f"{name}/{prompt.kind}{max(prompt.moves, 1)}", text, steps) if steps else None
 
 
 def _count(shares: Sequence[float], rng: Random) -> int:

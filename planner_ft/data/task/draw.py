@@ -6,7 +6,7 @@ import itertools
 import re
 from collections.abc import Callable, Iterator
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 from planner_ft.data.numbers import Value, count_text, length, pick, rotation
 from planner_ft.data.task.binding import SIDES, Bound
@@ -24,8 +24,7 @@ _WAY = re.compile(r"\b(left|right|port|starboard|(anti|counter-)?clockwise)\b", 
 LEFT = (" to the left", " to port", " anticlockwise")
 RIGHT = (" to the right", " to starboard", " clockwise")
 UNRESOLVED = 0.05  # share of samples whose position is not known yet
-Drawn = tuple[str, dict[str, Any], set[str]]
-"""A prompt with its values marked, its plan, and the skills that run beside its movements."""
+BESIDE = ("filter_skills", "perception_skills")
 
 
 class Context:
@@ -118,25 +117,36 @@ class Context:
         return {name: self.values[name].value for name in self.task.by_name if name in self.values}
 
 
+class Drawn(NamedTuple):
+    """A prompt: its family, its text with the values marked, and its steps."""
+
+    family: str
+    text: str
+    steps: list[Entry]
+
+    @property
+    def skills(self) -> set[str]:
+        """The skills that run beside the movements."""
+        calls = itertools.chain(*(step[key] for step in self.steps for key in BESIDE))
+        return {call["name"] for call in calls}
+
+
 def draw_template(bound: Bound, context: Context) -> Drawn | None:
     """A prompt of a template; None for a draw without a plan."""
     context.prepare(bound)
     drawing = Drawing(bound, context)
     text = joined(drawing.pieces(), small=grammar.is_small(drawing.parts))
-    return drawn(text, drawing.plan.steps)
+    steps = steps_of(drawing.plan.steps)
+    return Drawn(f"template/{len(steps)}", text, steps) if steps else None
 
 
-def drawn(text: str, steps: Callable[[], list[Entry]]) -> Drawn | None:
-    """The prompt with what its steps come to; None where they make no plan."""
+def steps_of(make: Callable[[], list[Entry]]) -> list[Entry]:
+    """The steps that are made; none where they make no plan."""
     try:
-        sequence = steps()
+        steps = make()
     except (ValueError, ZeroDivisionError):
-        return None
-    beside = [step[key] for step in sequence for key in ("filter_skills", "perception_skills")]
-    if not sequence or any(map(twice, beside)):
-        return None
-    skills = {call["name"] for calls in beside for call in calls}
-    return text, {"skill_sequence": sequence}, skills
+        return []
+    return [] if any(twice(step[key]) for step in steps for key in BESIDE) else steps
 
 
 def twice(calls: list[Entry]) -> bool:

@@ -28,7 +28,7 @@ from planner_ft.data.numbers import pick
 from planner_ft.data.task.binding import Bound, bind, binding, titles
 from planner_ft.data.task.compose import WORDS, composed
 from planner_ft.data.task.draw import Context, draw_template
-from planner_ft.data.task.phrasebook import phrasebook
+from planner_ft.data.task.phrasebook import Phrasebook, phrasebook
 from planner_ft.data.task.steps import Plan, entry_of
 from planner_ft.data.templates.grammar import TemplateError, parse_plan
 from planner_ft.data.templates.records import Template, templates
@@ -66,13 +66,18 @@ def sample_tasks(
     if split not in SPLITS:
         raise PlannerError(f"split {split}: must be {', '.join(SPLITS)}")
     rng = Random(f"{vocabulary.name}:{seed}:{split}")
-    draws = _Draws(vocabulary, rng, split, subjects)
-    seen: set[int] = set()
-    misses = 0
+    book = phrasebook(vocabulary, unseen=split == "test_unseen")
+    groups = [] if book.unseen else templates(vocabulary, "prompts", split, subjects)
+    if subjects and not groups:
+        raise PlannerError(
+            f"vocabulary {vocabulary.name}: split {split} has no prompt templates of"
+            f" {', '.join(subjects)}; a subject is the name of a file of templates"
+        )
+    share, seen, misses = 1.0 if subjects else TEMPLATES, set[int](), 0
     for number in itertools.count() if count is None else range(count):
-        whole = bool(draws.templates) and rng.random() < draws.share
+        whole = bool(groups) and rng.random() < share
         while True:
-            if drawn := draws.record(whole=whole):
+            if drawn := _record(book, split, groups if whole else [], rng):
                 key = hash((drawn["task"], repr(drawn["parameters"]), drawn["prompt"]))
                 if key not in seen:
                     break
@@ -86,69 +91,49 @@ def sample_tasks(
         yield {"id": f"task-{split}-{number:06d}", **drawn}
 
 
-class _Draws:
-    """Single draws for one split; None when one came to nothing or belongs to another split."""
-
-    def __init__(
-        self, vocabulary: Vocabulary, rng: Random, split: Split, subjects: Sequence[str]
-    ) -> None:
-        self.unseen = split == "test_unseen"
-        self.book, self.rng, self.split = phrasebook(vocabulary, unseen=self.unseen), rng, split
-        self.templates = [] if self.unseen else templates(vocabulary, "prompts", split, subjects)
-        if subjects and not self.templates:
-            raise PlannerError(
-                f"vocabulary {vocabulary.name}: split {split} has no prompt templates of"
-                f" {', '.join(subjects)}; a subject is the name of a file of templates"
-            )
-        self.share = 1.0 if subjects else TEMPLATES
-
-    def record(self, *, whole: bool) -> dict[str, Any] | None:
-        """One record without id, from a whole-prompt template or put together. Raises PlannerError
-        when the plan is not strictly valid.
-        """
-        book, rng, vocabulary = self.book, self.rng, self.book.vocabulary
-        if whole:
-            template = pick(pick(self.templates, rng), rng)
-            title = pick(titles(template, vocabulary), rng)
-            if (bound := binding(template, title, book)) is None:
-                return None
-            context = Context(book, vocabulary.task[title], rng)
-            drawn = draw_template(bound, context)
-        else:
-            context = Context(book, pick(vocabulary.tasks, rng), rng)
-            family, drawn = composed(context) or ("", None)
-        if drawn is None:
+def _record(
+    book: Phrasebook, split: Split, groups: Sequence[Sequence[Template]], rng: Random
+) -> dict[str, Any] | None:
+    """A record without id from a whole-prompt template or, without any, put together; None for a
+    draw that comes to nothing or belongs to another split. Raises PlannerError when the plan is not
+    strictly valid.
+    """
+    vocabulary, splits = book.vocabulary, {split, *(("train",) if groups else ())}
+    if groups:
+        template = pick(pick(groups, rng), rng)
+        title = pick(titles(template, vocabulary), rng)
+        if (bound := binding(template, title, book)) is None:
             return None
-        (said, expected, skills), title = drawn, context.task.title
-        splits: tuple[str, ...] = (self.split,)
-        if whole:
-            family, splits = f"template/{len(expected['skill_sequence'])}", ("train", self.split)
-        else:
-            said = opened(said, context)
-        if len(expected["skill_sequence"]) > LONGEST:
-            return None
-        said = aside(said, skills, context)
-        bucket = zlib.crc32(f"{title} {skeleton(said)}".lower().encode()) % 100
-        held_out = "test" if bucket < HELD_OUT else "validation"
-        if not self.unseen and (held_out if bucket < 2 * HELD_OUT else "train") not in splits:
-            return None
-        if problems := plan_problems("task", expected, vocabulary, strict=True):
-            raise PlannerError(
-                f"vocabulary {vocabulary.name}: a sample of {title} is not valid"
-                f" ({problems[0]}); correct the phrase file's ranges"
-            )
-        if not self.unseen:
-            values = (one for _name, of in named_entries("task", expected) for one in of.values())
-            # The plan has words of the prompt with their capitals.
-            texts = any(isinstance(one[0] if isinstance(one, list) else one, str) for one in values)
-            said = noisy(said, rng, shout=not texts)
-        return {
-            "family": f"unseen-{family}" if self.unseen else family,
-            "task": title,
-            "parameters": canonical_parameters(context.parameters(), context.task),
-            "prompt": plain(said),
-            "expected": expected,
-        }
+        context = Context(book, vocabulary.task[title], rng)
+        drawn = draw_template(bound, context)
+    else:
+        context = Context(book, pick(vocabulary.tasks, rng), rng)
+        drawn = composed(context)
+    if drawn is None or len(drawn.steps) > LONGEST:
+        return None
+    said, title, expected = drawn.text, context.task.title, {"skill_sequence": drawn.steps}
+    said = aside(said if groups else opened(said, context), drawn.skills, context)
+    bucket = zlib.crc32(f"{title} {skeleton(said)}".lower().encode()) % 100
+    held_out = "test" if bucket < HELD_OUT else "validation"
+    if not book.unseen and (held_out if bucket < 2 * HELD_OUT else "train") not in splits:
+        return None
+    if problems := plan_problems("task", expected, vocabulary, strict=True):
+        raise PlannerError(
+            f"vocabulary {vocabulary.name}: a sample of {title} is not valid"
+            f" ({problems[0]}); correct the phrase file's ranges"
+        )
+    if not book.unseen:
+        values = (one for _name, of in named_entries("task", expected) for one in of.values())
+        # The plan has words of the prompt with their capitals.
+        texts = any(isinstance(one[0] if isinstance(one, list) else one, str) for one in values)
+        said = noisy(said, rng, shout=not texts)
+    return {
+        "family": f"unseen-{drawn.family}" if book.unseen else drawn.family,
+        "task": title,
+        "parameters": canonical_parameters(context.parameters(), context.task),
+        "prompt": plain(said),
+        "expected": expected,
+    }
 
 
 # ---------------------------------------------------------------- words around a prompt

@@ -77,7 +77,7 @@ def _prompts(prompt: Template, book: Phrasebook) -> Iterator[tuple[str, Any]]:
         if bound := binding(prompt, title, book):
             context = Context(book, book.vocabulary.task[title], Random(seed))
             if drawn := draw_template(bound, context):
-                yield plain(drawn[0]), drawn[1]
+                yield plain(drawn.text), {"skill_sequence": drawn.steps}
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -178,8 +178,7 @@ def noisy(text: str, rng: Random, *, keep: frozenset[str] = frozenset(), shout: 
     roll = rng.random()
     for share, change in CHANGES:
         if roll < share:
-            pieces = change(_split(text, keep), rng)
-            changed = "".join(word for word, _stays in pieces).strip(" ")
+            changed = _joined(change(_split(text, keep), rng))
             capitals = change is telegraphed and shout and "°" not in changed
             return changed.upper() if capitals and rng.random() < 0.45 else changed
         roll -= share
@@ -196,6 +195,10 @@ def _split(text: str, keep: frozenset[str]) -> list[PIECE]:
             words = [piece for word in segment.split(" ") for piece in (" ", word)][1:]
             pieces += [(word, word.strip(MARKS) in keep) for word in words if word]
     return pieces
+
+
+def _joined(pieces: list[PIECE]) -> str:
+    return "".join(piece for piece, _stays in pieces).strip(" ")
 
 
 def _each(pieces: list[PIECE], change: Callable[[str], str]) -> list[PIECE]:

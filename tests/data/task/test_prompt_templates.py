@@ -46,9 +46,9 @@ def samples(source, count=40):
                     step["filter_skills"],
                     step["perception_skills"],
                 )
-                for step in drawn[1]["skill_sequence"]
+                for step in drawn.steps
             ]
-            yield plain(drawn[0]), context.parameters(), steps
+            yield plain(drawn.text), context.parameters(), steps
 
 
 def test_a_value_stands_in_the_text_and_in_its_step():
@@ -242,8 +242,9 @@ def test_every_line_of_the_vehicle_makes_valid_plans(name):
             title, bound = fitting[seed % len(fitting)]
             context = Context(book, vehicle.task[title], random.Random(f"{line.id}{seed}"))
             drawn.append(draw_template(bound, context))
-        for text, plan, _skills in filter(None, drawn):
-            assert "{" not in text, line.where
+        for one in filter(None, drawn):
+            plan = {"skill_sequence": one.steps}
+            assert "{" not in one.text, line.where
             assert plan_problems("task", plan, vehicle, strict=True) == [], line.where
         assert not drawn or any(drawn), line.where
 
