@@ -40,6 +40,11 @@ def is_text(value: Any) -> bool:
     return isinstance(value, str) and bool(value.strip())
 
 
+def is_name(value: Any) -> bool:
+    """Whether a JSON value is such a text in one line, without blanks at its ends."""
+    return is_text(value) and value == value.strip() and value.isprintable()
+
+
 def are_names(value: Any) -> bool:
     """Whether a JSON value is a list of such texts."""
     return isinstance(value, list) and all(map(is_text, value))
@@ -52,6 +57,7 @@ def _are_tables(value: Any) -> bool:
 
 KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
     "text": ("a text", is_text),
+    "name": ("a text in one line, without blanks at its ends", is_name),
     "flag": ("true or false", lambda value: isinstance(value, bool)),
     "number": ("a number", is_number),
     "position": ("a position [x, y]", is_position),

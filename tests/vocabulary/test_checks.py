@@ -67,6 +67,10 @@ PLACELESS = "brings the vehicle to a place and needs a parameter of type positio
         ([("extra", 1)], ["unknown key 'extra'"]),
         ([("vehicle", 3)], ["a table [vehicle] is needed"]),
         ([("vehicle.title", " ")], ["[vehicle]: title = ' ' must be a text"]),
+        (
+            [("skill.0.name", "Fly\n")],
+            ["skill Fly\n: name = 'Fly\\n' must be a text in one line, without blanks at its ends"],
+        ),
         ([("vehicle.title", 7)], ["[vehicle]: title = 7 must be a text"]),
         ([("vehicle.frame", GONE), ("vehicle.title", GONE)], ["[vehicle]: lacks title, frame"]),
         ([("vehicle.home", [-99, -99])], ["[vehicle]: home and unresolved are the same position"]),
