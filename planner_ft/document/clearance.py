@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from planner_ft.document.structures import (
-    MARGIN,
     ROUND,
     SAME,
     Allowed,
     Structure,
+    along,
     fence,
     runs_along,
     structures,
@@ -22,7 +22,6 @@ from planner_ft.facts.places import read_bearings
 from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
 from planner_ft.vocabulary import Entry, Vocabulary
 
-MOST_WALLS = 60  # circles by which a face is kept clear of
 MOST_ROUNDS = 30
 Step = dict[str, Any]
 Marks = list[dict[str, Any]]
@@ -52,10 +51,7 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
 
 def _walls(face: Face) -> list[Structure]:
     """A face that the plan runs along: the way to its pass and from it leads round its ends."""
-    (a, b), (c, d) = face.ends
-    count = math.ceil(math.dist(*face.ends) / max(face.distance, MARGIN))
-    parts = [number / count for number in range(count + 1)] if 0 < count <= MOST_WALLS else []
-    points = [(a + part * (c - a), b + part * (d - b)) for part in parts]
+    points = along(*face.ends, face.distance)
     return [Structure("", point, face.distance) for point in points]
 
 

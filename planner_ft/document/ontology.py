@@ -3,6 +3,7 @@
 A missing element becomes a question to the operator and blocks nothing: most commands lack some.
 """
 
+import itertools
 import re
 from collections.abc import Iterable, Iterator
 from typing import Any
@@ -31,6 +32,14 @@ _BESIDE = re.compile(
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""
+_BEHIND = re.compile(
+    r"[\])]?\s*,?\s*(?:there\s+)?(?:is|are|lies?|stands?|sits?|floats?|hangs?|rests?)\s+"
+)
+"""What stands between coordinates and their thing: "at [0, 35] there is a rock"."""
+_STRETCHES = re.compile(r"[^.;!?\d]*\b(?:from|between)\b[^.;!?\d]*?[\[(]?\s*", re.IGNORECASE)
+_ALONG = re.compile(r"\balong\s(?:[\w-]+\s){0,3}$", re.IGNORECASE)
+_ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNORECASE)
+"""What stands before the ends of a thing, and between them: "a net runs from [0, 35] to [9, 35]"."""
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
@@ -110,9 +119,31 @@ def named_places(
         words = _words_before(text, row[0].start, things)
         several |= {place.start: words for place in row[1:] if words.endswith("s")}
     for place in read_positions(text):
-        words = _words_before(text, place.start, things) if place.certain else ""
+        words = _words_beside(text, place, things) if place.certain else ""
         if words := words or several.pop(place.start, ""):
             yield words, place
+
+
+def named_lines(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position, Position]]:
+    """(words, one end, other end) of things that bar the way from one position to another."""
+    bars = language(vocabulary).words["bars"]
+    for one, other in itertools.pairwise(written_positions(text)):
+        if not _ENDS.fullmatch(text, one.end, other.start):
+            continue
+        for match in reversed(list(bars.finditer(text, 0, one.start))):
+            if _ALONG.search(text, 0, match.start()):
+                break
+            if _STRETCHES.fullmatch(text, match.end(), one.start):
+                yield match[0], one, other
+                break
+
+
+def _words_beside(text: str, place: Position, named: list[Span]) -> str:
+    """The name that stands before coordinates, or behind them; empty without one."""
+    behind = _BEHIND.match(text, place.end)
+    ends = [end for start, end in named if behind and start == behind.end()]
+    before = _words_before(text, place.start, named)
+    return before or (text[behind.end() : ends[0]] if behind and ends else "")
 
 
 def _words_before(text: str, place: int, named: list[Span]) -> str:

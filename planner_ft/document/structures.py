@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from planner_ft.document.limits import limits_of
-from planner_ft.document.ontology import is_thing, named_places, stands
+from planner_ft.document.ontology import is_thing, named_lines, named_places, stands
 from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.planning.frame import frame_of
@@ -29,6 +29,7 @@ FOLLOWING = "follow"
 SAME = 0.6  # metres within which a waypoint is a structure itself
 MARGIN = 0.5
 """Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
+MOST_PARTS = 60  # circles by which a line is kept clear of
 CORNERS = 8  # waypoints of a full way round a structure
 MOVING = ("go", "arc")
 Allowed = Callable[[Point, Point], bool]  # whether a straight leg may be gone
@@ -101,6 +102,9 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             stated.setdefault(place, []).append(margin)
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         named.setdefault((beside.x, beside.y), words)
+    for words, *ends in named_lines(frame_of(document).spoken, vocabulary):
+        for at in along(*((end.x, end.y) for end in ends), own / 2):
+            named.setdefault(at, words)
     for name, position in (*chart, *document.get("located", {}).items()):
         if is_thing(name, vocabulary):
             named[point_of(position)] = named.get(point_of(position)) or name
@@ -177,6 +181,13 @@ def runs_along(task: Entry, vocabulary: Vocabulary) -> bool:
     """Whether a task passes along a face, close to it on purpose."""
     known = vocabulary.task.get(task["title"])
     return known is not None and known.pattern == "pass"
+
+
+def along(start: Point, end: Point, apart: float) -> list[Point]:
+    """Both ends of a line, and points between them that are no farther `apart`."""
+    count = max(1, min(MOST_PARTS, math.ceil(math.dist(start, end) / max(apart, MARGIN))))
+    (x, y), (a, b) = start, end
+    return [(x + at / count * (a - x), y + at / count * (b - y)) for at in range(count + 1)]
 
 
 def way_off(point: Point, start: Point, goal: Point) -> float:

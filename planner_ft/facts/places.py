@@ -29,16 +29,20 @@ _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 
 _COORDINATE = re.compile(
     r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
-    r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.]))(?P<sign>[-−–+])?"
-    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|-(?P<sixtieths>[0-5]\d(?:\.\d+)?)))"
-    r"(?(lead)|(?=[\s,]?[NSEW]\b))"
+    r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.])|(?<=\d[NS])|(?<=\.\d{4})(?=[+-]\d{2,3}\.\d{4}))"
+    r"(?P<sign>[-−–+])?"
+    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|(?=-?[0-5]\d)))"
+    r"(?:-?(?P<sixtieths>[0-5]\d(?:\.\d+)?))?(?(lead)|(?=[\s,]?[NSEW](?![A-Za-z])))"
     r"|(?P<degrees>\d{1,3}(?:\.\d+|,\d{2,}(?=\s?[°º˚]))?)(?![\d.]*\d))"
-    r"(?P<ring>\s?[°º˚]\s?(?:(?P<minutes>\d{1,2}(?:[.,]\d+)?)\s?['′’]\s?"
-    r"(?:(?P<seconds>\d{1,2}(?:[.,]\d+)?)\s?(?:[\"″”]|''|’’)\s?)?)?)?"
-    r"(?(lead)|(?P<hemisphere>(?:\s|(?<=\d),)?(?:[NSEW]\b|(?i:north|south|east|west)\b))?)"
+    r"(?P<ring>\s?(?:[°º˚]|(?P<spoken>(?i:deg(?:rees?)?)\b\.?))\s?"
+    r"(?:(?:(?i:and) )?(?P<minutes>\d{1,2}(?:[.,]\d+)?)\s?(?:['′’]|(?i:min(?:utes?)?)\b\.?)\s?"
+    r"(?:(?:(?i:and) )?(?P<seconds>\d{1,2}(?:[.,]\d+)?)\s?"
+    r"(?:[\"″”]|''|’’|(?i:sec(?:onds?)?)\b\.?)\s?)?)?)?"
+    r"(?(lead)|(?P<hemisphere>"
+    r"(?:\s|(?<=\d),)?(?:[NSEW](?![A-Za-z_])|(?i:north|south|east|west)\b))?)"
 )
-"""`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N) or as they are
-spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N".
+"""`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N; 480702N) or as
+they are spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N".
 """
 _BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 _WRITTEN_PAIR = re.compile(
@@ -144,7 +148,7 @@ def read_geographic(text: str) -> tuple[Geographic, ...]:
     result, skip = list[Geographic](), False
     for one, two in itertools.zip_longest(found, found[1:]):
         paired = two is not None and _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
-        if not skip and (paired or one["minutes"]):
+        if not skip and (paired or (one["minutes"] and not one["spoken"])):
             parts = (one, two) if paired else (one,)
             (first, axis), (second, other) = [*map(_degrees, parts), (None, "")][:2]
             turned = axis == "lon" or other == "lat"
@@ -173,11 +177,17 @@ def _is_degrees(match: re.Match[str]) -> bool:
     return bool(
         match["word"]
         or match["packed"]
-        or match["minutes"]
-        or (match["ring"] and (match["lead"] or match["hemisphere"]))
+        or (match["minutes"] and not match["spoken"])
+        or (match["ring"] and _has_side(match) and (decimals or not match["spoken"]))
+        or (match["minutes"] and _has_side(match))
         or decimals >= DIGITS_OF_DEGREES
         or (_has_letter(match) and decimals >= 2)
     )
+
+
+def _has_side(match: re.Match[str]) -> bool:
+    """Whether a number has a hemisphere."""
+    return bool(match["lead"] or match["hemisphere"])
 
 
 def _has_letter(match: re.Match[str]) -> bool:
@@ -190,8 +200,8 @@ def _degrees(match: re.Match[str]) -> tuple[float, str]:
     letter = (match["lead"] or match["hemisphere"] or "").strip(" ,").lower()
     said = (match["word"] or letter).strip().lower()
     axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
-    degrees, packed = match["degrees"] or match["whole"], (match["packed"] or "0").partition("-")[0]
-    minutes, seconds = match["minutes"] or packed, match["seconds"] or match["sixtieths"] or 0
+    degrees, minutes = match["degrees"] or match["whole"], match["minutes"] or match["packed"] or 0
+    seconds = match["seconds"] or match["sixtieths"] or 0
     parts = (str(part).replace(",", ".") for part in (degrees, minutes, seconds))
     value = sum(float(part) / 60**at for at, part in enumerate(parts))
     return -value if match["sign"] in _MINUS or letter[:1] in ("s", "w") else value, axis

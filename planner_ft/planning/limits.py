@@ -125,11 +125,12 @@ def areas_of(command: str) -> list[Row]:
 
 
 def _whole(text: str, rows: Sequence[Row], limits: Limits, write: Write) -> str:
-    """The sentence of a limit with all corners of its area, where it has one of them twice."""
+    """The sentence of a limit with all corners of its area, where it lacks some, or has one twice."""
     limit = read_limit(text, limits)
     corners = limit.values.get("polygon", []) if limit else []
     ends = corners[:-1] if corners[:1] == corners[-1:] else corners
-    if limit is None or limit.titles or all(ends.count(corner) == 1 for corner in ends):
+    if limit is None or limit.titles or not ends:
         return text
     meant = [row for row in rows if all(corner in row for corner in ends)]
-    return write(limit.kind, {"polygon": meant[0]}, limits) if len(meant) == 1 else text
+    lacks = len(meant) == 1 and any(ends.count(corner) != 1 for corner in meant[0])
+    return write(limit.kind, {"polygon": meant[0]}, limits) if lacks else text

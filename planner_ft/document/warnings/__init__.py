@@ -6,7 +6,7 @@ A check is a function from a `Case` to the warnings that it finds.
 from collections.abc import Iterator
 
 from planner_ft.document.track import Track
-from planner_ft.document.warnings import asked, places, route, said, values
+from planner_ft.document.warnings import asked, picked, places, route, said, values
 from planner_ft.document.warnings.case import KINDS, NOTES, SERIOUS, Case, Check, Warning, warning
 from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.vocabulary import Entry, Vocabulary
@@ -57,12 +57,12 @@ CHECKS: tuple[Check, ...] = (
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     asked.once_for_all,
     route.performed,
-    *(said.measures, said.corrected, said.bare_numbers, said.clock_times),
+    *(said.measures, said.corrected, said.unclear, said.bare_numbers, said.clock_times),
     *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
-    *(places.positions, said.limits, said.repeats, places.laid_otherwise),
+    *(places.positions, said.limits, said.repeats, said.devices, places.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unheard, values.unsaid_skills),
-    places.done_again,
+    *(places.done_again, places.done_twice, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

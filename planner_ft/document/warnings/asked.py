@@ -255,7 +255,7 @@ def home_and_not(case: Case) -> Iterator[Warning]:
 
 def data_ruled_out(case: Case) -> Iterator[Warning]:
     """Words that rule data out which steps of the plan gather."""
-    gathering = set[str]().union(*(_gathering(task, case.vocabulary) for task in case.tasks))
+    gathering = set[str]().union(*(gathered_by(task, case.vocabulary) for task in case.tasks))
     for data in (one for one in case.spoken.data if one.ruled_out and one.skills & gathering):
         for match in data.said.finditer(case.command):
             skills = ", ".join(sorted(data.skills & gathering))
@@ -267,7 +267,7 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
     """Clauses with words for sensors or data that reach no skill. Data that is sent may have been
     gathered long ago, and is not asked for.
     """
-    own = [_gathering(task, case.vocabulary) for task in case.tasks]
+    own = [gathered_by(task, case.vocabulary) for task in case.tasks]
     gathering = set[str]().union(*own)
     # What waits says what it will gather, and data to be sent are not gathered anew.
     waiting = [task["task_prompt"] for task in case.tasks if not task["skill_sequence"]]
@@ -298,7 +298,7 @@ def _once(
             yield warning("data-not-planned", "once", about=about, **values)
 
 
-def _gathering(task: Entry, vocabulary: Vocabulary) -> set[str]:
+def gathered_by(task: Entry, vocabulary: Vocabulary) -> set[str]:
     """The skills that gather something in a task; of a task that waits those that are essential."""
     names = {skill["name"] for _role, skill in skills_of(task)}
     if not task["skill_sequence"]:

@@ -194,6 +194,7 @@ class PlanValues:
         if any(command.vocabulary.task[task["title"]].pattern == "sectors" for task in tasks):
             self.anywhere.add(FULL)
         self.texts = " ".join(texts).casefold()
+        self.words = " ".join([self.texts, *map(str, own)]).casefold()
         self.timed = any(limit["kind"] in ("return", "duration") for limit in limits)
 
     def says(self, value: float) -> bool:

@@ -1,14 +1,16 @@
 """Places of the command that the plan has not, or has otherwise."""
 
+import itertools
 import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
+from planner_ft.document.structures import structures
 from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
-from planner_ft.facts.places import lone_coordinates, read_bearings, read_geographic
+from planner_ft.facts.places import lone_coordinates, read_bearings, read_geographic, rows_of
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
@@ -18,13 +20,33 @@ def positions(case: Case) -> Iterator[Warning]:
     passed = {place for row in case.rows for place in row}
     passed |= {place for _clause, _name, place in _left_out(case)}
     passed |= {place for behind, place in _ruled_out(case) if place.start < behind.start}
+    kept_off = [one.position for one in structures(case.document, case.vocabulary)]
     for place in case.positions:
-        if case.wants(place.start) and place not in passed and not case.plan.has(place):
+        wanted = case.wants(place.start) and place not in passed and not case.plan.has(place)
+        if wanted and not (_is_told_of(place, case) and _is_known(place, kept_off)):
             yield lost(case.text[place.start : place.end])
     for start, end in lone_coordinates(case.text):
         words = case.text[start:end].strip()
         if words.casefold() not in case.plan.texts:
             yield lost(words)
+
+
+def _is_told_of(place: Position, case: Case) -> bool:
+    """Whether words at a place tell what is there, and ask for nothing: those before its row, or
+    behind it.
+    """
+    row = next(row for row in rows_of(case.text, case.positions) if place in row)
+    inside = [one for one in case.clauses if one.end > row[0].start][:1]
+    inside += [one for one in case.clauses if one.start > row[-1].start][:1]
+    tells = case.words["tells"]
+    if not inside or not any(tells.search(one.text) for one in inside):
+        return False
+    asking = [case.words["verb"], *(ask.said for ask in case.spoken.asks)]
+    return not any(words.match(inside[0].text.strip()) for words in asking)
+
+
+def _is_known(place: Position, others: list[Point]) -> bool:
+    return any(same_place(place, at) for at in others)
 
 
 def geographic(case: Case) -> Iterator[Warning]:
@@ -87,6 +109,19 @@ def done_again(case: Case) -> Iterator[Warning]:
         if said == 1 and one in done and (task["title"] != known.transit or ends):
             yield warning("value-not-said", "asked", task, about="asked")
         done.append(one)
+
+
+def done_twice(case: Case) -> Iterator[Warning]:
+    """A task that is done twice on end, for which the command has words once at most."""
+    again = any(
+        case.words[name].search(case.command) for name in ("again", "repeats", "everywhere")
+    )
+    for one, other in itertools.pairwise(() if again else case.tasks):
+        asks = [ask for ask in case.spoken.asks if one["title"] in ask.tasks]
+        said = max((len(ask.named.findall(case.command)) for ask in asks), default=0)
+        same = one["title"] == other["title"] and one["parameters"] == other["parameters"]
+        if same and said < 2:
+            yield warning("value-not-said", "asked", other, about="asked")
 
 
 def _done_at(case: Case) -> dict[Point, set[str]]:

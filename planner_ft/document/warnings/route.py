@@ -245,13 +245,23 @@ def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
 
 
 def close_structures(case: Case) -> Iterator[Warning]:
-    """One per structure that a task comes too close to and that no limit names."""
+    """One per structure that a task comes too close to and that no limit names; of what reaches
+    from one place to another its nearest part.
+    """
     limited = [limit["values"] for limit in case.limits]
     told = {one.get("object") for one in limited}
     told |= {shown(one["position"]) for one in limited if "position" in one}
-    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
+    found = list(close_legs(case.document, case.path.legs, case.vocabulary))
+    bars = {
+        (name, structure.name): (name, structure, metres)
+        for name, structure, metres in sorted(found, key=lambda one: -one[2])
+        if case.words["bars"].fullmatch(structure.name)
+    }
+    for name, structure, metres in found:
         at, task = shown(structure.position), case.by_id[name]
-        if structure.name not in told and at not in told:
+        nearest = bars.get((name, structure.name), (name, structure, metres))
+        named_limit = structure.name in told or at in told
+        if not named_limit and nearest == (name, structure, metres):
             where = structure.name if structure.name == at else f"{structure.name} at {at}"
             values: dict[str, Any] = {
                 "metres": metres,

@@ -92,6 +92,16 @@ def corrected(case: Case) -> Iterator[Warning]:
                     yield lost(case.text[number.start : number.end])
 
 
+def unclear(case: Case) -> Iterator[Warning]:
+    """Clauses that change a value and say none: "double it", "the first was right"."""
+    for clause in case.clauses:
+        own = [one for one in case.numbers if clause.start <= one.start < clause.end]
+        said = any(number.value != 1 or number.unit for number in own)
+        if case.words["changed"].search(clause.text) and clause.start and not said:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("value-lost", "unclear", about=words.casefold(), words=words)
+
+
 def clock_times(case: Case) -> Iterator[Warning]:
     """Times such as "14:30" that are in no text of the plan, nor as a length among its values;
     those of limits are judged by `limits`.
@@ -136,7 +146,8 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         if inside:
             continue
         before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
-        bare = _parameters(case.vocabulary).search(before) or SIZES.search(before)
+        named = _parameters(case.vocabulary).search(before) or AXIS.search(before)
+        bare = named or SIZES.search(before)
         replacing = case.words["replaced"]
         instead = clause and replacing.match(clause.text.strip(" ,"))
         kinds = [replacing]
@@ -146,6 +157,8 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         ends = {match.end() for words in kinds for match in words.finditer(before)}
         behind = len(before.rstrip(" :,")) in ends or number in last_counted
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
+        if instead and number.value < 0:
+            known = any(near(number.value, other) for other in case.plan.anywhere)
         if (bare or instead or behind) and not known:
             yield lost(case.text[number.start : number.end])
 
@@ -172,6 +185,19 @@ def _is_measure(text: str, number: Number) -> bool:
     if moment or number.unit == "%" or CLOCK.match(text, number.end):
         return False
     return number.unit is not None or is_course(text, number.start)
+
+
+def devices(case: Case) -> Iterator[Warning]:
+    """Cameras that a word tells from others ("the port camera") of which the plan has no word."""
+    known = [case.words[name] for name in ("determiner", "boundary", "verb", "nothing")]
+    known += [case.spoken.sensors, *(data.said for data in case.spoken.data)]
+    for clause in (one for one in case.clauses if not one.corrected):
+        for start, end in clause.spans(case.words["device"]):
+            before = WORD.findall(case.text[clause.start : start])[-1:]
+            own = [one for one in before if LONGER.fullmatch(one)]
+            new = [one for one in own if not any(words.fullmatch(one) for words in known)]
+            if new and new[0].casefold() not in case.plan.words:
+                yield lost(f"{new[0]} {case.text[start:end]}")
 
 
 def limits(case: Case) -> Iterator[Warning]:

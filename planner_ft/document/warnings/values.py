@@ -8,6 +8,7 @@ from planner_ft.document.warnings.asked import UNKNOWN
 from planner_ft.document.warnings.case import Case, Warning, quoted, warning
 from planner_ft.facts import SCORING, WAYPOINT, Evidence, Facts, Position, is_number, is_place, read
 from planner_ft.facts.inputs import read_input
+from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.words import edit_distance, unknown_words, words
 from planner_ft.planning.shapes import pass_ends, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
@@ -27,6 +28,7 @@ def unread(case: Case) -> Iterator[Warning]:
 def unsaid(case: Case) -> Iterator[Warning]:
     """Values of tasks that are the model's own, and task prompts that say another value."""
     said = case.source.facts
+    timed = any(number.unit == "s" for number in said.numbers("s"))
     for task in case.tasks:
         known, prompt = case.vocabulary.task[task["title"]].by_name, read(task["task_prompt"])
         for name, source in task.get("sources", {}).items():
@@ -40,6 +42,8 @@ def unsaid(case: Case) -> Iterator[Warning]:
                     yield warning("value-not-said", "unsaid", **about)
             elif is_number(value) and _is_coordinate(evidence, said, case.positions):
                 yield warning("value-not-said", "coordinate", **about)
+            elif parameter.unit == "s" and not timed and _has_no_unit(evidence, said):
+                yield warning("value-not-said", "unit", **about)
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
                 yield warning("contradiction", "prompt", **about, words=words)
@@ -86,6 +90,14 @@ def _is_coordinate(evidence: Evidence, said: Facts, places: Sequence[Position]) 
         for spans in evidence.mentions
         for start, end in spans
     )
+
+
+def _has_no_unit(evidence: Evidence, said: Facts) -> bool:
+    """Whether a value stands in the command as a number without a unit."""
+    spans = [(spans[0][0], spans[-1][1]) for spans in evidence.mentions]
+    numbers = [read_numbers(said.text[start:end]) for start, end in spans]
+    bare = [all(one.unit is None for one in found) for found in numbers]
+    return evidence.kind == "stated" and bool(bare) and all(bare)
 
 
 def worked_out(case: Case) -> Iterator[Warning]:
