@@ -102,8 +102,8 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             stated.setdefault(place, []).append(margin)
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         named.setdefault((beside.x, beside.y), words)
-    for words, *ends in named_lines(frame_of(document).spoken, vocabulary):
-        for at in along(*((end.x, end.y) for end in ends), own / 2):
+    for words, one, other in named_lines(frame_of(document).spoken, vocabulary):
+        for at in along((one.x, one.y), (other.x, other.y), own / 2):
             named.setdefault(at, words)
     for name, position in (*chart, *document.get("located", {}).items()):
         if is_thing(name, vocabulary):

@@ -19,6 +19,7 @@ from planner_ft.vocabulary.limits import (
     read_limit,
     sentence,
     slots,
+    written,
 )
 
 GENERAL = ("fence", "keep_out_area", "keep_out", "clearance", "distance", "speed")
@@ -72,6 +73,33 @@ def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) 
         told = [*texts, *(text for text in added if text not in texts)]
         tasks.append({**task, "task_prompt": " ".join(told) or task["task_prompt"]})
     return {**plan, "tasks": tasks, "constraints": constraints}
+
+
+def with_return(plan: Plan, vocabulary: Vocabulary) -> Plan:
+    """The mission plan with the way home behind its last task, where a limit of it says when the
+    vehicle is to be back and it ends elsewhere.
+    """
+    stated = limits_in(list(plan.get("constraints", ())), load_limits(vocabulary))
+    back = any(limit.kind == "return" and not limit.titles for limit in stated)
+    home, way = list(vocabulary.home), vocabulary.task.get(vocabulary.transit)
+    if not back or way is None or last_away(plan["tasks"], vocabulary) is None:
+        return plan
+    prompt = f"Return home to {written(home)}."
+    task = {"title": way.title, "parameters": {way.position_parameter: home}}
+    return {**plan, "tasks": [*plan["tasks"], {**task, "task_prompt": prompt}]}
+
+
+def last_away(tasks: Sequence[Plan], vocabulary: Vocabulary) -> Plan | None:
+    """The last task that takes place somewhere, unless that is home or a dock."""
+    for task in reversed(tasks):
+        known = vocabulary.task[task["title"]]
+        docks = known.docks or (known.arrival == "none" and known.pattern == "visual")
+        place = task["parameters"].get(known.position_parameter or "")
+        if docks or (place and tuple(place) == vocabulary.home):
+            return None
+        if known.arrival != "none":
+            return task
+    return None
 
 
 def holds_for(limit: Limit, title: str, tasks: Iterable[Mapping[str, Any]]) -> bool:

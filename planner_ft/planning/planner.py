@@ -11,7 +11,7 @@ from typing import Any
 from planner_ft.planning.agents import Agents, Progress, silent
 from planner_ft.planning.essentials import asked, missing_defaults, with_defaults, with_essentials
 from planner_ft.planning.frame import agents_frame
-from planner_ft.planning.limits import with_limits, without_limits
+from planner_ft.planning.limits import with_limits, with_return, without_limits
 from planner_ft.planning.locations import (
     Locations,
     OpenPlace,
@@ -103,7 +103,8 @@ class Planner:
         if mission.plan is not None:
             unsure = doubts(frame.spoken, mission.plan, mission.judged, self.vocabulary)
             told = frame.restored(mission.plan, self.vocabulary)
-            plan = with_limits(told, self.vocabulary, frame.spoken)
+            stated = with_limits(told, self.vocabulary, frame.spoken)
+            plan = with_limits(with_return(stated, self.vocabulary), self.vocabulary, frame.spoken)
             known, unused = fitting(plan, locations or {}, self.vocabulary)
             mission = replace(mission, plan=plan, notes=(*mission.notes, *unused))
             filled = resolve(plan, known, self.vocabulary)

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import Point, place_of
@@ -20,8 +21,28 @@ ORDINAL = re.compile(
 """An ordinal that stands for a place, and the noun behind it."""
 COUNTS = {None: 1, "two": 2, "three": 3}
 ONLY = re.compile(r"\b(?:only|just|alone|nowhere else)\b", re.IGNORECASE)
-Wish = Ask | Data
+Places = Sequence[Position]
 Done = list[tuple[Point, Entry]]  # the tasks with the places where they are
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A clause that picks places of a group, or rules them out."""
+
+    clause: Clause
+    group: Places
+    picked: Places
+    ruled_out: bool
+
+    def wishes(self, case: Case) -> list[Ask | Data]:
+        """What is asked for there, or ruled out."""
+        asks = case.spoken.asks
+        found: list[Ask | Data] = [
+            one
+            for one in asks
+            if (one.named if self.ruled_out else one.said).search(self.clause.text)
+        ]
+        return [*found, *(one for one in case.spoken.data if one.said.search(self.clause.text))]
 
 
 def elsewhere(case: Case) -> Iterator[Warning]:
@@ -29,16 +50,36 @@ def elsewhere(case: Case) -> Iterator[Warning]:
     out, and a place that is left out altogether.
     """
     done = _done(case)
+    for choices in _choices(case):
+        # Where an ordinal can be read in two ways, the plan may have either.
+        wrong = min((list(_wrong(case, one, done)) for one in choices), key=len, default=[])
+        for task in wrong[:1]:
+            words = quoted(choices[0].clause.text.strip(" ,;."))
+            yield warning("contradiction", "picked", task, about=words.casefold(), words=words)
+
+
+def left_out(case: Case) -> Iterator[Position]:
+    """The places that a clause leaves out: "skip the middle one"."""
+    for choice in (one for choices in _choices(case) for one in choices):
+        if _leaves_out(choice, case):
+            yield from choice.picked
+
+
+def _choices(case: Case) -> Iterator[list[Choice]]:
+    """The choices of every ordinal: from the last row of several places before it, and from all."""
     for clause in (one for one in case.clauses if not one.corrected):
         for match in ORDINAL.finditer(clause.text.rstrip(" ,;.!")):
             start = clause.start + match.start()
-            groups = _groups(case, start) if _is_place(match[3], case) else []
-            sets = [_picked(group, match[1].casefold(), COUNTS[match[2]]) for group in groups]
-            if not all(sets) or not sets:
-                continue
-            for task in [*_wrong(case, clause, start, groups, sets, done)][:1]:
-                words = quoted(clause.text.strip(" ,;."))
-                yield warning("contradiction", "picked", task, about=words.casefold(), words=words)
+            ruled_out = clause.excluded is not None and clause.excluded < start
+            before = {(one.x, one.y): one for one in case.positions if one.start < start}
+            rows = [row for row in rows_of(case.text, before.values()) if len(row) > 1]
+            choices = [
+                Choice(clause, group, picked, ruled_out)
+                for group in (*rows[-1:], list(before.values()))
+                if (picked := _picked(group, match[1].casefold(), COUNTS[match[2]]))
+            ]
+            if len(before) > 1 and _is_place(match[3], case):
+                yield choices
 
 
 def _is_place(noun: str | None, case: Case) -> bool:
@@ -46,53 +87,34 @@ def _is_place(noun: str | None, case: Case) -> bool:
     return noun is None or any(case.words[name].match(noun) for name in ("water", "standing"))
 
 
-def _groups(case: Case, start: int) -> list[list[Position]]:
-    """The places of which an ordinal may pick: the last row of several before it, and all."""
-    before = list({(one.x, one.y): one for one in case.positions if one.start < start}.values())
-    rows = [row for row in rows_of(case.text, before) if len(row) > 1]
-    return [list(one) for one in (*rows[-1:], before) if len(one) > 1]
-
-
-def _picked(places: Sequence[Position], ordinal: str, count: int) -> list[Position]:
+def _picked(places: Places, ordinal: str, count: int) -> Places:
     if ordinal in ("last", "final"):
-        return list(places[-count:])
+        return places[-count:]
     if ordinal == "middle":
         return [places[len(places) // 2]] if len(places) % 2 else []
     first = ORDER.index(ordinal)
-    return list(places[first : first + count])
+    return places[first : first + count]
 
 
-def _wrong(
-    case: Case,
-    clause: Clause,
-    start: int,
-    groups: list[list[Position]],
-    sets: list[list[Position]],
-    done: Done,
-) -> Iterator[Entry]:
-    """The tasks that are not where a clause picks places for them, in any way to read it."""
-    ruled_out = clause.excluded is not None and clause.excluded < start
-    wishes = [
-        one
-        for one in (*case.spoken.asks, *case.spoken.data)
-        if (one.named if ruled_out and isinstance(one, Ask) else one.said).search(clause.text)
-    ]
-    if ruled_out and not wishes and case.words["replaced"].search(clause.text):
-        tasks = [[task for at, task in done if _is_at(at, places)] for places in sets]
-        yield from min(tasks, key=len)
-    for wish in wishes:
-        own = [(at, task) for at, task in done if _does(task, wish, case)]
-        said = sum(bool(wish.said.search(one.text)) for one in case.clauses)
-        if not ruled_out and said > 1 and not ONLY.search(clause.text):
-            continue
-        found = []
-        for group, places in zip(groups, sets, strict=True):
-            others = places if ruled_out else [one for one in group if one not in places]
-            found.append([task for at, task in own if _is_at(at, others)])
-        yield from min(found, key=len)
+def _leaves_out(choice: Choice, case: Case) -> bool:
+    skips = case.words["replaced"].search(choice.clause.text) is not None
+    return choice.ruled_out and skips and not choice.wishes(case)
 
 
-def _does(task: Entry, wish: Wish, case: Case) -> bool:
+def _wrong(case: Case, choice: Choice, done: Done) -> Iterator[Entry]:
+    """The tasks that are not where a choice has them."""
+    if _leaves_out(choice, case):
+        yield from (task for at, task in done if _is_at(at, choice.picked))
+    rest = [one for one in choice.group if one not in choice.picked]
+    for wish in choice.wishes(case):
+        said = sum(wish.said.search(one.text) is not None for one in case.clauses)
+        if choice.ruled_out or said < 2 or ONLY.search(choice.clause.text):
+            barred = choice.picked if choice.ruled_out else rest
+            own = [(at, task) for at, task in done if _does(task, wish, case)]
+            yield from (task for at, task in own if _is_at(at, barred))
+
+
+def _does(task: Entry, wish: Ask | Data, case: Case) -> bool:
     if isinstance(wish, Ask):
         return task["title"] in wish.tasks
     return bool(wish.skills & gathered_by(task, case.vocabulary))
@@ -107,5 +129,5 @@ def _done(case: Case) -> Done:
     return found
 
 
-def _is_at(at: Point, places: Sequence[Position]) -> bool:
+def _is_at(at: Point, places: Places) -> bool:
     return any(same_place(place, at) for place in places)

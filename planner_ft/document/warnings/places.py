@@ -8,6 +8,7 @@ from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import structures
 from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
 from planner_ft.facts.places import lone_coordinates, read_bearings, read_geographic, rows_of
@@ -18,6 +19,7 @@ from planner_ft.vocabulary import Entry, Vocabulary
 def positions(case: Case) -> Iterator[Warning]:
     """Single positions, and latitudes and longitudes alone, that the plan has nowhere."""
     passed = {place for row in case.rows for place in row}
+    passed |= {*picked.left_out(case)}
     passed |= {place for _clause, _name, place in _left_out(case)}
     passed |= {place for behind, place in _ruled_out(case) if place.start < behind.start}
     kept_off = [one.position for one in structures(case.document, case.vocabulary)]
@@ -66,10 +68,11 @@ def geographic(case: Case) -> Iterator[Warning]:
 
 def rows(case: Case) -> Iterator[Warning]:
     """Rows of positions that are neither the corners of an area nor a route."""
+    skipped = list(picked.left_out(case)) if case.rows else []
     for row in case.rows:
         clause = case.clause_at(row[0].start)
         limiting = clause is not None and case.words["limit"].search(clause.text)
-        visited = all(case.plan.has(place) for place in row)
+        visited = all(case.plan.has(place) for place in row if place not in skipped)
         if not case.plan.encloses(row) and (limiting or not visited):
             words = case.text[row[0].start : row[-1].end]
             kind = ("limit-lost", "area") if limiting else ("value-lost", "row")

@@ -11,11 +11,11 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause
-from planner_ft.document.structures import MOVING, close_legs, way_off
+from planner_ft.document.structures import MOVING, Structure, close_legs, way_off
 from planner_ft.document.track import Leg, Point, place_of, shown, stated
 from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
 from planner_ft.facts.places import read_geographic, read_positions
-from planner_ft.planning.limits import time_left, without_limits
+from planner_ft.planning.limits import last_away, time_left, without_limits
 from planner_ft.planning.shapes import goal_of, shape_problem
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.limits import load_limits
@@ -70,7 +70,7 @@ def order(case: Case) -> Iterator[Warning]:
 
 def missing_return(case: Case) -> Iterator[Warning]:
     """A command that speaks of coming home, and a plan that ends elsewhere."""
-    last = _last_away(case)
+    last = last_away(case.tasks, case.vocabulary)
     if last is not None and any(_asks_for_home(clause, case) for clause in case.typed):
         yield warning("missing-return", last=named(last))
 
@@ -86,7 +86,7 @@ def endurance(case: Case) -> Iterator[Warning]:
     lasts, known = case.vehicle.get("endurance"), case.document.get("estimate") or {}
     if not lasts or not known:
         return
-    home, away = case.vocabulary.home, _last_away(case) is not None
+    home, away = case.vocabulary.home, last_away(case.tasks, case.vocabulary) is not None
     back = math.dist(case.path.last(home), home) / case.vehicle["cruise_speed"] if away else 0.0
     taken = _minutes(known["seconds"])
     taken += f" and {_minutes(back)} for the way home" if back >= 60 else ""
@@ -98,19 +98,6 @@ def endurance(case: Case) -> Iterator[Warning]:
         yield warning("over-endurance", **words)
     elif unknown and known["seconds"] + back > MUCH * lasts:
         yield warning("endurance-open", **words)
-
-
-def _last_away(case: Case) -> Entry | None:
-    """The last task that takes place somewhere, unless that is home or a dock."""
-    task: Entry
-    for task in reversed(case.tasks):
-        known = case.vocabulary.task[task["title"]]
-        docks = known.docks or (known.arrival == "none" and known.pattern == "visual")
-        if docks or place_of(task, case.vocabulary) == case.vocabulary.home:
-            return None
-        if known.arrival != "none":
-            return task
-    return None
 
 
 def _minutes(seconds: float) -> str:
@@ -251,24 +238,18 @@ def close_structures(case: Case) -> Iterator[Warning]:
     limited = [limit["values"] for limit in case.limits]
     told = {one.get("object") for one in limited}
     told |= {shown(one["position"]) for one in limited if "position" in one}
-    found = list(close_legs(case.document, case.path.legs, case.vocabulary))
-    bars = {
-        (name, structure.name): (name, structure, metres)
-        for name, structure, metres in sorted(found, key=lambda one: -one[2])
-        if case.words["bars"].fullmatch(structure.name)
-    }
-    for name, structure, metres in found:
-        at, task = shown(structure.position), case.by_id[name]
-        nearest = bars.get((name, structure.name), (name, structure, metres))
-        named_limit = structure.name in told or at in told
-        if not named_limit and nearest == (name, structure, metres):
+    nearest = dict[tuple[str, str], tuple[float, Structure]]()
+    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
+        at, bar = shown(structure.position), case.words["bars"].fullmatch(structure.name)
+        key, found = (name, structure.name if bar else at), (metres, structure)
+        nearest[key] = min(nearest.get(key, found), found, key=lambda one: one[0])
+    for (name, _key), (metres, structure) in nearest.items():
+        at = shown(structure.position)
+        if structure.name not in told and at not in told:
             where = structure.name if structure.name == at else f"{structure.name} at {at}"
-            values: dict[str, Any] = {
-                "metres": metres,
-                "name": where,
-                "standoff": structure.standoff,
-            }
-            yield warning("structure-close", task=task, about=at, **values)
+            values: dict[str, Any] = {"metres": metres, "name": where}
+            values["standoff"] = structure.standoff
+            yield warning("structure-close", task=case.by_id[name], about=at, **values)
 
 
 # ---------------------------------------------------------------- boundaries, area, reach

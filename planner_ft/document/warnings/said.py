@@ -31,6 +31,7 @@ MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORE
 SIZES = re.compile(r"\d\s?[x×*]\s?$")  # stands before the second and third of "20 x 20 x 5"
 AXIS = re.compile(r"(?<![a-z])[xy]\s?[=:]?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
+ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
@@ -223,7 +224,8 @@ def _is_kept(clause: Clause, case: Case) -> bool:
     apart = [n for n in numbers if not any(one.start <= n.start < one.end for one in inside)]
     said = [n for n in apart if n.unit in ("m", "s", "m/s") or AXIS.search(text[: n.start])]
     by_time = case.words["by_time"].search(clause.text)
-    if by_time and clause.text[by_time.end() :].lstrip()[:1].isdigit():
+    behind = clause.start + by_time.end() if by_time else len(text)
+    if any(0 <= one.start - behind <= ARTICLE for one in (*numbers, *read_times(text))):
         return plan.timed
     away = case.words["away"].search(clause.text)
     if not said and away:
