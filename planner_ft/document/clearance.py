@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from planner_ft.document.structures import (
+    MARGIN,
+    MOST_PARTS,
     ROUND,
     SAME,
     Allowed,
@@ -51,7 +53,9 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
 
 def _walls(face: Face) -> list[Structure]:
     """A face that the plan runs along: the way to its pass and from it leads round its ends."""
-    points = along(*face.ends, face.distance)
+    length = math.dist(*face.ends)
+    short = 0 < length <= MOST_PARTS * max(face.distance, MARGIN)
+    points = along(*face.ends, face.distance) if short else []
     return [Structure("", point, face.distance) for point in points]
 
 

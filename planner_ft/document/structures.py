@@ -103,8 +103,10 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         named.setdefault((beside.x, beside.y), words)
     for words, one, other in named_lines(frame_of(document).spoken, vocabulary):
-        for at in along((one.x, one.y), (other.x, other.y), own / 2):
-            named.setdefault(at, words)
+        parts = along((one.x, one.y), (other.x, other.y), own)
+        named |= {at: words for at in parts if at not in named}
+        # The circles of a long thing are larger: they leave no gap.
+        kept |= {at: apart for at in parts if (apart := math.dist(*parts[:2])) > own + MARGIN}
     for name, position in (*chart, *document.get("located", {}).items()):
         if is_thing(name, vocabulary):
             named[point_of(position)] = named.get(point_of(position)) or name

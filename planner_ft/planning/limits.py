@@ -160,5 +160,11 @@ def _whole(text: str, rows: Sequence[Row], limits: Limits, write: Write) -> str:
     if limit is None or limit.titles or not ends:
         return text
     meant = [row for row in rows if all(corner in row for corner in ends)]
-    lacks = len(meant) == 1 and any(ends.count(corner) != 1 for corner in meant[0])
-    return write(limit.kind, {"polygon": meant[0]}, limits) if lacks else text
+    if len(meant) != 1:
+        return text
+    # Positions of the row that stand before or behind all corners are others.
+    places = [meant[0].index(corner) for corner in ends]
+    all_of_it = all(ends.count(corner) == 1 for corner in ends)
+    row = meant[0][min(places) : max(places) + 1] if all_of_it else meant[0]
+    lacks = any(ends.count(corner) != 1 for corner in row)
+    return write(limit.kind, {"polygon": row}, limits) if lacks else text

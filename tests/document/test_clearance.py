@@ -110,12 +110,28 @@ def test_words_before_a_position_are_not_all_things(command: str) -> None:
         "Nets in the water at 60,0.",
         "On the way stands a dolphin, namely at [60, 0].",
         "Watch out for the barge which lies at 60,0.",
+        "At [60, 0] there is a rock.",
+        "Right ahead, at 60,0, lies a mooring buoy.",
+        "A boom reaches from 60,-30 to 60,30.",
+        "There is a net between the two buoys at [60, -15] and [60, 15].",
+        "Mind the breakwater, it runs from 50,0 to 70,0.",
     ],
 )
 def test_things_that_are_only_told_of_are_kept_clear_of(command: str) -> None:
     plan = document([transit(120, 0, "Go to [120, 0].")], command=f"{command} Go to 120,0.")
     assert nearest(plan, [60, 0]) >= 9.5
     assert waypoints(plan)[-1] == [120, 0]
+
+
+def test_what_is_run_along_bars_no_way_and_a_bar_is_warned_of_once() -> None:
+    command = "Go along the quay wall from 60,-30 to 60,30."
+    plan = document([transit(60, -30), transit(60, 30)], command=command)
+    assert waypoints(plan) == [[60, -30], [60, 30]]
+    across = "A boom lies from 60,-30 to 60,30. Go to 55,0."
+    plan = document([transit(55, 0, "Go to [55, 0].")], command=across)
+    assert [one["kind"] for one in plan["warnings"]] == ["structure-close"]
+    long = "A net lies from 60,-1500 to 60,1500. Go to 200,0."
+    assert document([transit(200, 0, "Go to [200, 0].")], command=long)["warnings"] != []
 
 
 def test_a_grid_leads_round_what_stands_in_its_middle_and_over_a_wreck() -> None:

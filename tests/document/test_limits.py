@@ -227,6 +227,15 @@ def test_an_area_with_a_corner_twice_is_the_row_of_the_command() -> None:
     assert with_limits(closed, USV, "Stay in 0,0 200,0 200,200 0,200 9,9.") == closed
 
 
+def test_an_area_that_lacks_a_corner_is_the_row_of_the_command() -> None:
+    lacks = "The vehicle stays inside [0, 0], [9, 0], [5, 9], [0, 9]."
+    plan = with_limits(
+        {"tasks": [], "constraints": [lacks]}, USV, "Stay in 0,0 9,0 9,5 5,5 5,9 0,9."
+    )
+    whole = "The vehicle stays inside [0, 0], [9, 0], [9, 5], [5, 5], [5, 9], [0, 9]."
+    assert plan["constraints"] == [whole]
+
+
 def test_a_constraint_is_edited_and_its_filters_follow() -> None:
     plan = document([transit(100, 50)], constraints=["Be careful.", FENCE])
     plan = apply(plan, {"kind": "constraint", "at": 1}, USV)

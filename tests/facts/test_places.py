@@ -87,6 +87,11 @@ def test_numbers_in_a_row_are_no_third_place() -> None:
         ("at 48 07.038 N 011 31.000 W", 48.1173, -11.516667),
         ("at 48-07.038N, 011-31.000W", 48.1173, -11.516667),
         ("at 4807.038,S,01131.000,W", -48.1173, -11.516667),
+        ("at 50 degrees 9.06 minutes north, 5 degrees 3.48 minutes west", 50.151, -5.058),
+        ("at 54 deg 19 min 21 sec N, 10 deg 8 min 42 sec E", 54.3225, 10.145),
+        ("at 50.15 degrees north and 5.06 degrees west", 50.15, -5.06),
+        ("to 541921N0100842E", 54.3225, 10.145),
+        ("to +54.3225-010.1450/", 54.3225, -10.145),
     ],
 )
 def test_geographic_positions_are_degrees_and_nothing_else(

@@ -115,7 +115,7 @@ def done_again(case: Case) -> Iterator[Warning]:
 
 
 def done_twice(case: Case) -> Iterator[Warning]:
-    """A task that is done twice on end, for which the command has words once at most."""
+    """A task without a place that is done twice on end, for which the command has words once at most."""
     again = any(
         case.words[name].search(case.command) for name in ("again", "repeats", "everywhere")
     )
@@ -123,7 +123,7 @@ def done_twice(case: Case) -> Iterator[Warning]:
         asks = [ask for ask in case.spoken.asks if one["title"] in ask.tasks]
         said = max((len(ask.named.findall(case.command)) for ask in asks), default=0)
         same = one["title"] == other["title"] and one["parameters"] == other["parameters"]
-        if same and said < 2:
+        if same and said < 2 and place_of(other, case.vocabulary) is None:
             yield warning("value-not-said", "asked", other, about="asked")
 
 

@@ -147,8 +147,9 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         if inside:
             continue
         before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
-        named = _parameters(case.vocabulary).search(before) or AXIS.search(before)
-        bare = named or SIZES.search(before)
+        limits_it = clause is not None and case.words["limit"].search(clause.text)
+        named = _parameters(case.vocabulary).search(before)
+        bare = named or SIZES.search(before) or (AXIS.search(before) and not limits_it)
         replacing = case.words["replaced"]
         instead = clause and replacing.match(clause.text.strip(" ,"))
         kinds = [replacing]

@@ -95,7 +95,7 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         (
             "Hold here, make coffee, and come home.",
             [hold(600), hold(600), BACK],
-            ["value-not-said:t1:duration", "value-not-said:t2:duration"],
+            ["value-not-said:t1:duration", "value-not-said:t2:duration", "value-not-said:t2:asked"],
         ),
         (
             "Go to [30, 40]. Come home, but do not come home.",
@@ -109,7 +109,11 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
             [PANORAMA],
             ["contradiction:t1:no panorama after all"],
         ),
-        ("Look all round. No panorama after all.", [PANORAMA, PANORAMA], []),
+        (
+            "Look all round. No panorama after all.",
+            [PANORAMA, PANORAMA],
+            ["value-not-said:t2:asked"],
+        ),
         ("No panorama. Take a panorama.", [PANORAMA], []),
         ("Take a panorama. No need to hurry or to be late, panorama.", [PANORAMA], []),
         ("Go on and read the gauge.", [PANORAMA], ["value-not-said:t1:asked"]),
