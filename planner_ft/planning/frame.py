@@ -19,7 +19,7 @@ from planner_ft.support.geodesy import NEAREST_POLE, Origin
 from planner_ft.vocabulary import Vocabulary
 
 _COMMA = r"\s?[=:]?\s?[-−–]?\d+,\d+"
-COMMAS = re.compile(rf"(?i)(?<!\w)x{_COMMA}(?:\s+\w+)?\s+y{_COMMA}(?![\d,.]*\d)")
+COMMAS = re.compile(rf"(?i)(?<!\w)x{_COMMA}(?:\s?m\b)?[,;]?(?:\s+\w+)?\s+y{_COMMA}(?![\d,.]*\d)")
 """Coordinates by their axes with decimal commas."""
 FAR = 100_000.0
 """Metres from the origin beyond which a position of the command makes the origin doubtful."""

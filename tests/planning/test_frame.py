@@ -85,6 +85,7 @@ def test_commands_in_metres_are_left_alone() -> None:
 @pytest.mark.parametrize(
     ("command", "spoken"),
     [
+        ("To x = 12,5 m and y = 30,5 m.", "To x = 12.5 m and y = 30.5 m."),
         ("Fahre zu x = 12,5 und y = -40,5.", "Fahre zu x = 12.5 und y = -40.5."),
         ("Go to X 3,25 Y 4,75 and hold.", "Go to X 3.25 Y 4.75 and hold."),
         ("Go to x = 12, y = 40.", "Go to x = 12, y = 40."),
