@@ -121,7 +121,7 @@ def generated(engine: Engine, configuration: Configuration, *, enforced: bool) -
                 do_sample=False,
                 max_new_tokens=limits.max_new_tokens,
                 eos_token_id=list(limits.end_ids),
-                pad_token_id=limits.pad_id,
+                pad_token_id=engine.tokenizer.pad_token_id,
                 logits_processor=processors,
             )[0, len(query.prompt) :].tolist()
         kept = output[:-1] if output[-1] in limits.end_ids else output

@@ -41,7 +41,7 @@ class Judge:
         longest = max(one.completion_length for one in prepared.validation.samples)
         named = run.model.get_base_model().generation_config.eos_token_id
         ends = tuple(ends_of_answers(self.tokenizer, named))
-        self.limits = Limits(ends, prepared.pad, int(ROOM * longest))
+        self.limits = Limits(ends, int(ROOM * longest))
 
     def answers(self, *, adapter: bool) -> list[Answer]:
         """The scores of the answers; those of the base are prompted as a benchmark prompts it."""
@@ -59,14 +59,13 @@ class Judge:
                     stack.enter_context(autocast(self.run.device, self.run.dtype))
                 if decoder is None and not adapter:
                     stack.enter_context(model.disable_adapter())
-                one = decoder or ModelDecoder(model, self.limits.pad_id)
+                one = decoder or ModelDecoder(model)
                 found = generate(one, queries, self.limits, Method(), batch_size=BATCH)
         return [self._scored(*pair) for pair in zip(self.records, found, strict=True)]
 
     def _scored(self, record: dict[str, Any], answer: Generation) -> Answer:
-        ids = answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
         how = {"skip_special_tokens": False, "clean_up_tokenization_spaces": False}
-        text = self.tokenizer.decode(list(ids), **how)
+        text = self.tokenizer.decode(list(answer.said), **how)
         sample = Sample.of(record)
         output = {"output": without_working(str(text))[0]}
         values = score_sample(self.request.level, sample, output, self.request.vocabulary).values

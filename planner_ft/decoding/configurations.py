@@ -19,10 +19,9 @@ MAX_NEW_TOKENS: dict[Level, int] = {"mission": 1024, "task": 2048}
 
 @dataclass(frozen=True)
 class Limits:
-    """Ends of an answer: `end_ids` or `max_new_tokens`; `pad_id` fills prompts on the left."""
+    """Ends of an answer."""
 
     end_ids: tuple[int, ...]
-    pad_id: int
     max_new_tokens: int
 
 

@@ -6,8 +6,9 @@ import contextlib
 import functools
 import gc
 import itertools
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +23,10 @@ from planner_ft.confidence.parts import Choice, Choices
 from planner_ft.decoding import generate
 from planner_ft.decoding.configurations import MAX_NEW_TOKENS, Configuration, Limits, Strength
 from planner_ft.decoding.constraints.answer import Factory, constraint_factory
-from planner_ft.decoding.constraints.grammar import TASK_OPENS
-from planner_ft.decoding.constraints.scripts import STEP_OPENS
+from planner_ft.decoding.constraints.scripts import STEP, MissionScript, TaskScript
 from planner_ft.decoding.forward import SmallModel, read_forms
 from planner_ft.decoding.generate import Answers, Generation, Queries
-from planner_ft.decoding.lookup import Likeness, Lookup, usual_plans
+from planner_ft.decoding.lookup import Lookup, usual_plans
 from planner_ft.decoding.passes import Decoder, ModelDecoder
 from planner_ft.decoding.sequence import Method, Query, Sampling
 from planner_ft.prompts import ends_of_answers, render_prompt
@@ -55,8 +55,6 @@ class Engine:
     threads: int | None = None
     fast_forward: bool = True
     drafting: bool = True
-    factories: dict[tuple[Level, Strength], Factory | None] = field(default_factory=dict)
-    bases: dict[Level, Lookup] = field(default_factory=dict)
 
     @classmethod
     def load(
@@ -70,8 +68,6 @@ class Engine:
         quantization: Quantization = "nf4",
         threads: int | None = None,
         lean: bool | None = None,
-        fast_forward: bool = True,
-        drafting: bool = True,
     ) -> Engine:
         """Load a candidate, with the adapters of the levels that are given one.
 
@@ -95,10 +91,9 @@ class Engine:
             model = load_model(candidate, device=device, adapters=given, **settings)
         config, own = read_config(folder), read_config(folder, "generation_config.json")
         named = own.get("eos_token_id", config.get("eos_token_id"))
-        ends, pad = tuple(ends_of_answers(tokenizer, named)), int(tokenizer.pad_token_id)
-        most = MAX_NEW_TOKENS.items()
-        limits = {level: Limits(ends, pad, max_new_tokens or longest) for level, longest in most}
-        how = limits, frozenset(given), threads, fast_forward, drafting
+        ends, most = tuple(ends_of_answers(tokenizer, named)), MAX_NEW_TOKENS.items()
+        limits = {level: Limits(ends, max_new_tokens or longest) for level, longest in most}
+        how = limits, frozenset(given), threads
         return cls(model, forms or {}, tokenizer, vocabulary, *how)
 
     def query(
@@ -136,22 +131,30 @@ class Engine:
     def latencies(
         self, queries: Queries, configuration: Configuration, sampling: Sampling | None = None
     ) -> Answers:
-        """The answers with their latencies, one query at a time."""
+        """The answers, one query after the other; `seconds` are those from prompt ids to the
+        complete answer.
+
+        A whole query runs first and is not counted: kernels are chosen, 4-bit weights packed and
+        grammars compiled then.
+        """
         if level := _level(queries):
-            method = self.method(level, configuration, sampling)
+            method, limits = self.method(level, configuration, sampling), self.limits[level]
             with self.configured(level, configuration) as decoder:
-                yield from generate.measure_latency(decoder, queries, self.limits[level], method)
+                for place, query in enumerate([queries[0], *queries]):
+                    started = time.perf_counter()
+                    (answer,) = generate.generate(decoder, [query], limits, method)
+                    # The last token has been read from the device: nothing is left running.
+                    if place:
+                        yield place - 1, replace(answer, seconds=time.perf_counter() - started)
 
     def method(
         self, level: Level, configuration: Configuration, sampling: Sampling | None = None
     ) -> Method:
         """How the answers of a configuration are generated."""
-        opens = TASK_OPENS if level == "mission" else STEP_OPENS
+        opens = MissionScript.opens if level == "mission" else STEP + TaskScript.opens
         return Method(
             self._factory(level, configuration.strength),
             self.fast_forward,
-            self.drafting,
-            self._likeness,
             self._base(level) if self.drafting else None,
             sampling,
             lambda ids: self._decoded(ids).count(opens),
@@ -159,15 +162,15 @@ class Engine:
 
     def text(self, answer: Generation) -> str:
         """The text of an answer without its end token and its working; other specials are shown."""
-        return without_working(self._decoded(_said(answer)))[0]
+        return without_working(self._decoded(answer.said))[0]
 
     def working(self, answer: Generation) -> str:
         """The sums that a model wrote before a skill sequence (planner_ft.data.task.working)."""
-        return without_working(self._decoded(_said(answer)))[1]
+        return without_working(self._decoded(answer.said))[1]
 
     def choices(self, answer: Generation) -> Choices | None:
         """The tokens of `text(answer)` with the model's own odds; None where unknown."""
-        ids = _said(answer)
+        ids = answer.said
         text = self._decoded(ids)
         scores = [scored for scored in answer.scores[: len(ids)] if scored is not None]
         if len(scores) < len(ids):
@@ -211,41 +214,41 @@ class Engine:
                 self.model.set_adapter(adapter, inference_mode=True)
             plain = self.adapters and not adapter
             with self.model.disable_adapter() if plain else contextlib.nullcontext():
-                yield ModelDecoder(self.model, self.limits[level].pad_id)
-
-    def _factory(self, level: Level, strength: Strength) -> Factory | None:
-        if (level, strength) not in self.factories:
-            what, limits = (self.tokenizer, level, self.vocabulary, strength), self.limits[level]
-            small, model = self.lean.get(None), self.model
-            width = small.head.shape[0] if small else model.config.get_text_config().vocab_size
-            made = constraint_factory(*what, limits.end_ids, limits.max_new_tokens, width)
-            self.factories[level, strength] = made
-        return self.factories[level, strength]
-
-    def _base(self, level: Level) -> Lookup:
-        """How plans of a level are put together, to draft from."""
-        if level not in self.bases:
-            texts = usual_plans(level, self.vocabulary)
-            plans = self.tokenizer(texts, add_special_tokens=False)["input_ids"]
-            end = self.limits[level].end_ids[0]
-            tokens = [token for plan in plans for token in (*plan, end)]
-            self.bases[level] = Lookup(tokens, self._likeness)
-        return self.bases[level]
+                yield ModelDecoder(self.model)
 
     @functools.cached_property
-    def _likeness(self) -> Likeness:
-        """Tokens are alike that differ in case or in the space before them alone."""
-        return functools.cache(lambda token: self._piece(token).strip().lower() or token)
+    def _factory(self) -> Callable[[Level, Strength], Factory | None]:
+        """What enforces a strength at a level."""
+        small, model = self.lean.get(None), self.model
+        width = small.head.shape[0] if small else model.config.get_text_config().vocab_size
+
+        @functools.cache
+        def factory(level: Level, strength: Strength) -> Factory | None:
+            limits = self.limits[level]
+            how = self.tokenizer, level, self.vocabulary, strength
+            return constraint_factory(*how, limits.end_ids, limits.max_new_tokens, width)
+
+        return factory
+
+    @functools.cached_property
+    def _base(self) -> Callable[[Level], Lookup]:
+        """How plans of a level are put together, to draft from. Tokens are alike that differ in
+        case or in the space before them alone.
+        """
+        likeness = functools.cache(lambda token: self._piece(token).strip().lower() or token)
+
+        @functools.cache
+        def base(level: Level) -> Lookup:
+            texts, end = usual_plans(level, self.vocabulary), self.limits[level].end_ids[0]
+            plans = self.tokenizer(texts, add_special_tokens=False)["input_ids"]
+            return Lookup([token for plan in plans for token in (*plan, end)], likeness)
+
+        return base
 
     @functools.cached_property
     def _piece(self) -> Callable[[int], str]:
         """The text of a token that stands alone."""
         return functools.cache(lambda token: self._decoded([token]))
-
-
-def _said(answer: Generation) -> tuple[int, ...]:
-    """The ids of an answer without the token that ended it."""
-    return answer.ids[:-1] if answer.finish_reason == "stop" else answer.ids
 
 
 def _level(queries: Queries) -> Level | None:

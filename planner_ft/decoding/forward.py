@@ -5,6 +5,11 @@ needs to plan, and most of a token's time goes to everything but the multiplicat
 adapters and 4-bit rounding are computed here as those libraries compute them, and a pass takes few
 operations: queries, keys and values in one multiplication, gate and up in another. Norms, rotary
 positions, attention and residual sums are float32, the multiplications are in the model's dtype.
+
+A position's logits do not depend on how many positions share its pass or on the other rows of the
+batch, even in bfloat16 where the CPU multiplies it (oneDNN gives a row the same numbers whatever
+rows stand beside it): queries and keys are multiplied in blocks of a fixed size. So drafting,
+fast-forward and batches change not one bit.
 """
 
 from __future__ import annotations
@@ -26,10 +31,13 @@ from planner_ft.candidates.loading import require_folder
 from planner_ft.candidates.location import read_config
 from planner_ft.candidates.registry import Quantization
 from planner_ft.candidates.weights import merge_adapter, read_weights
-from planner_ft.decoding.attention import BLOCK, Grid, attention, rounded_up
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level
 
+BLOCK = 8
+"""Queries that are multiplied together. A pass over fewer is filled up to it."""
+KEYS = 128
+"""Keys that are multiplied together. Memory comes in multiples of it."""
 SHARED, LONG = 64, 256
 """Tokens that prompts must have in common to be copied, and of a prompt that is kept for it."""
 EMBEDDINGS, HEAD, NORM = "model.embed_tokens.weight", "lm_head.weight", "model.norm.weight"
@@ -67,8 +75,7 @@ def read_forms(
     forms: dict[Level | None, SmallModel] = {}
     for name in (None, *adapters):
         merged = merge_adapter(tensors, adapters[name]) if name else tensors
-        form = small_model(config, merged) if merged is not None else None
-        if form is None:
+        if not merged or not (form := small_model(config, merged)):
             return None
         forms[name] = form
     return forms
@@ -193,6 +200,59 @@ def _frequencies(rope: Mapping[str, Any], size: int) -> Tensor:
     return plain
 
 
+class Grid:
+    """Where the tokens of a pass stand: blocks of `width` neighbours from position `starts` of some
+    rows on, filled up with tokens that count for nothing. One row has any number of blocks, which
+    attend one after the other; several have one each.
+
+    `where` are the row and positions of all tokens in the memory, `parts` the blocks that attend
+    together, their rows, and their keys. `hidden` is minus infinity for later keys, else 0:
+    (blocks, 1, group * BLOCK, keys).
+    """
+
+    def __init__(self, rows: slice, starts: Sequence[int], count: int, group: int) -> None:
+        self.width = width = min(count, BLOCK)
+        blocks = [first for start in starts for first in range(start, start + count, width)]
+        first, reach = torch.tensor(blocks)[:, None], [rounded_up(one + width) for one in blocks]
+        self.where: tuple[Any, Any] = rows.start, slice(starts[0], starts[0] + len(blocks) * width)
+        self.parts = [(slice(at, at + 1), rows, keys) for at, keys in enumerate(reach)]
+        if len(starts) > 1:
+            places = (first + torch.arange(width)).flatten()
+            self.where = torch.arange(len(starts)).repeat_interleave(width), places
+            self.parts = [(slice(None), rows, max(reach))]
+        queries = (first + torch.arange(BLOCK)).repeat(1, group)
+        later = torch.arange(max(reach)) > queries[:, None, :, None]
+        self.hidden = torch.zeros(later.shape).masked_fill_(later, -torch.inf)
+
+
+def attention(queries: Tensor, memory: Tensor, hidden: Tensor) -> Tensor:
+    """Attention of queries (blocks, key heads, queries, size) over keys and values (2, blocks,
+    positions, key heads, size).
+
+    The result does not depend on how many hidden keys stand behind the others: values are added up
+    in chunks, in their order.
+    """
+    keys, values = memory.transpose(2, 3)
+    scores = torch.matmul(queries, keys.transpose(2, 3))
+    weights = torch.softmax(scores.mul_(queries.shape[-1] ** -0.5).add_(hidden), -1)
+    found = torch.matmul(weights[..., :KEYS], values[:, :, :KEYS])
+    for start in range(KEYS, keys.shape[2], KEYS):
+        chunk = slice(start, start + KEYS)
+        found += torch.matmul(weights[..., chunk], values[:, :, chunk])
+    return found
+
+
+def rounded_up(number: int) -> int:
+    """The next multiple of KEYS."""
+    return -(-number // KEYS) * KEYS
+
+
+def begin_alike(one: Sequence[int], other: Sequence[int]) -> int:
+    """The number of tokens that two texts begin with alike."""
+    pairs = itertools.takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False))
+    return sum(1 for _ in pairs)
+
+
 class SmallPasses:
     """Forward passes of a batch (see passes.Passes); each row has positions of its own."""
 
@@ -201,36 +261,32 @@ class SmallPasses:
     def __init__(self, model: SmallModel, rows: int) -> None:
         self.model = model
         self.lengths = [0] * rows
-        self.capacity = 0
         empty = torch.zeros(2, rows, 0, model.sizes.kv_heads, model.sizes.head_dim)
         self.memory = [empty for _layer in model.layers]
 
     def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
         counts = [len(feed) for feed in feeds]
-        starts = self.lengths
-        ends = [start + count for start, count in zip(starts, counts, strict=True)]
+        ends = [start + count for start, count in zip(self.lengths, counts, strict=True)]
         self._make_room(max(ends) + BLOCK)
         if len(feeds) > 1 and max(counts) <= BLOCK:
-            logits = self._run(Grid.of_rows(starts, max(counts)), feeds, wanted)
+            logits = self._run(slice(None), self.lengths, feeds, wanted)
         else:  # prompts one after the other, so that none is filled up to the longest
-            parts = zip(range(len(feeds)), starts, feeds, wanted, strict=True)
-            logits = torch.cat([self._run_row(*part) for part in parts])
+            parts = enumerate(zip(feeds, wanted, strict=True))
+            logits = torch.cat([self._run_row(row, *part) for row, part in parts])
         self.lengths = ends
         return logits
 
-    def _run_row(self, row: int, start: int, feed: Sequence[int], wanted: int) -> Tensor:
+    def _run_row(self, row: int, feed: Sequence[int], wanted: int) -> Tensor:
         """The wanted logits of one row. What a long prompt has in common with the one before it
         (the vocabulary, most of it) is not computed again.
         """
-        known, kept = 0, self.model.last_prompt
+        start, known, kept = self.lengths[row], 0, self.model.last_prompt
         if not start and kept:
-            same = zip(kept[0][0], feed[:-wanted], strict=False)
-            known = sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], same))
+            known = begin_alike(kept[0][0], feed[:-wanted])
             known *= known >= SHARED
             for memory, old in zip(self.memory, kept[0][1], strict=True):
                 memory[:, row, :known] = old[:, :known]
-        grid = Grid.of_row(row, start + known, len(feed) - known)
-        logits = self._run(grid, [feed[known:]], [wanted])
+        logits = self._run(slice(row, row + 1), [start + known], [feed[known:]], [wanted])
         if not start and len(feed) > LONG and 2 * known < len(feed):
             kept[:] = [(feed, [memory[:, row, : len(feed)].clone() for memory in self.memory])]
         return logits
@@ -244,22 +300,28 @@ class SmallPasses:
 
     def _make_room(self, positions: int) -> None:
         """Memory for this many positions; what is not written yet is hidden, and still a number."""
-        if positions > self.capacity:
-            more = max(rounded_up(positions), 2 * self.capacity) - self.capacity
-            self.memory = [pad(memory, (0, 0, 0, 0, 0, more)) for memory in self.memory]
-            self.capacity += more
-            self.angles = self.model.angles(self.capacity)
+        if positions > (known := self.memory[0].shape[2]):
+            room = max(rounded_up(positions), 2 * known)
+            self.memory = [pad(one, (0, 0, 0, 0, 0, room - known)) for one in self.memory]
+            self.angles = self.model.angles(room)
 
-    def _run(self, grid: Grid, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
-        """The wanted logits of the rows of a grid."""
-        model, slots = self.model, len(grid.starts) * grid.width // len(feeds)
+    def _run(
+        self,
+        rows: slice,
+        starts: Sequence[int],
+        feeds: Sequence[Sequence[int]],
+        wanted: Sequence[int],
+    ) -> Tensor:
+        """The wanted logits of one row, or of all with at most BLOCK tokens each."""
+        model = self.model
+        grid = Grid(rows, starts, max(map(len, feeds)), model.sizes.heads // model.sizes.kv_heads)
+        slots = len(grid.hidden) * grid.width // len(feeds)
         ids = [token for feed in feeds for token in (*feed, *[0] * (slots - len(feed)))]
-        hidden = grid.hidden(model.sizes.heads // model.sizes.kv_heads)
         angles = [angle[grid.where[1]] for angle in self.angles]
         states = embedding(torch.tensor(ids), model.embeddings).float()
         for layer, memory in zip(model.layers, self.memory, strict=True):
             queries = model.normalised(states, layer.norm)
-            states = states + self._attend(layer, queries, grid, hidden, angles, memory)
+            states = states + self._attend(layer, queries, grid, angles, memory)
             fed = linear(model.normalised(states, layer.feed_norm), *layer.gate_up)
             gate, up = fed.chunk(2, -1)
             states = states + linear(silu(gate) * up, *layer.down)
@@ -269,13 +331,7 @@ class SmallPasses:
         return linear(model.normalised(states[kept], model.norm), model.head)
 
     def _attend(
-        self,
-        layer: Layer,
-        states: Tensor,
-        grid: Grid,
-        hidden: Tensor,
-        angles: Sequence[Tensor],
-        memory: Tensor,
+        self, layer: Layer, states: Tensor, grid: Grid, angles: Sequence[Tensor], memory: Tensor
     ) -> Tensor:
         """Remember the new keys and values, and let every position look at those up to itself."""
         sizes = self.model.sizes
@@ -290,7 +346,7 @@ class SmallPasses:
         queries = pad(queries.permute(0, 2, 3, 1, 4), (0, 0, 0, BLOCK - grid.width))
         queries = queries.reshape(len(queries), key_heads, -1, size)
         found = [
-            attention(queries[part], memory[:, rows, :keys], hidden[part, ..., :keys])
+            attention(queries[part], memory[:, rows, :keys], grid.hidden[part, ..., :keys])
             for part, rows, keys in grid.parts
         ]
         spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)

@@ -43,8 +43,13 @@ class Generation:
     cut: bool = False
     alternatives: int = 0
 
+    @property
+    def said(self) -> tuple[int, ...]:
+        """The tokens without the one that ended the answer."""
+        return self.ids[:-1] if self.finish_reason == "stop" else self.ids
 
-PLAIN = Method(fast_forward=False, drafting=False)
+
+PLAIN = Method(fast_forward=False, lookup=None)
 """Greedy generation, a forward pass per token."""
 Queries = Sequence[Query]
 Answers = Iterator[tuple[int, Generation]]
@@ -87,24 +92,6 @@ def generate_unordered(
             raise PlannerError(f"{lack}; {way}") from error
 
 
-def measure_latency(
-    decoder: Decoder, queries: Queries, limits: Limits, method: Method = PLAIN
-) -> Answers:
-    """The answers, one query after the other; `seconds` are those from prompt ids to the complete
-    answer.
-
-    A whole query runs first and is not counted: kernels are chosen, 4-bit weights packed and
-    grammars compiled then.
-    """
-    if queries:
-        generate(decoder, queries[:1], limits, method)
-    for index, query in enumerate(queries):
-        started = time.perf_counter()
-        (answer,) = generate(decoder, [query], limits, method)
-        # `generate` has read the last token from the device: nothing is left running.
-        yield index, replace(answer, seconds=time.perf_counter() - started)
-
-
 def _room(decoder: Decoder, query: Query, limits: Limits) -> int:
     """Tokens that an answer may have."""
     context, taken = decoder.context, len(query.prompt)
@@ -119,9 +106,8 @@ def _bounded(decoder: Decoder, state: SequenceState, answer: Generation) -> Gene
     to the schema alone; with the cost of all. The free answer begins as this one does up to where
     they diverged, and is only generated until it is long enough.
     """
-    method, diverged = state.method, state.diverged
-    entries = method.entries
-    if entries is None or diverged is None or method.constraint is None:
+    method, diverged, entries = state.method, state.diverged, state.method.entries
+    if entries is None or diverged is None:
         return answer
     made = entries(answer.ids)
     if made <= 2 * entries(answer.ids[:diverged]) + 2 and not answer.cut:
@@ -159,15 +145,16 @@ def _run(decoder: Decoder, states: dict[int, SequenceState], began: float) -> An
         wanted = [count for _ids, count in fed]
         logits = passes.run([ids for ids, _count in fed], wanted).float()
         # Reading the tokens waits for the device, so the time below is that of the whole step.
-        best, wrong, decided = iter(logits.argmax(-1).tolist()), [], []
-        for state, rows in zip(states.values(), torch.split(logits, wanted), strict=True):
-            wrong.append(state.choose(list(islice(best, len(rows))), rows))
-            decided.append(rows[: state.decided])
+        best, rows = iter(logits.argmax(-1).tolist()), torch.split(logits, wanted)
+        decided = [
+            state.choose(list(islice(best, len(own))), own)
+            for state, own in zip(states.values(), rows, strict=True)
+        ]
         # What stood behind a wrong draft has no scores.
-        latest = [token for state in states.values() for token in state.latest]
-        scored = scores(latest, torch.cat(decided))
-        for state in states.values():
-            state.rate(scored)
+        right = torch.cat([own[: len(ids)] for own, ids in zip(rows, decided, strict=True)])
+        scored = scores([token for ids in decided for token in ids], right)
+        for state, ids in zip(states.values(), decided, strict=True):
+            state.rate(islice(scored, len(ids)))
         now = time.perf_counter()
         first = first or now - began
         share, began = share + (now - began) / len(states), now
@@ -177,7 +164,7 @@ def _run(decoder: Decoder, states: dict[int, SequenceState], began: float) -> An
                 yield index, _generation(states.pop(index), share, first)
         began = time.perf_counter()
         if states:
-            passes.forget(wrong)
+            passes.forget([count - len(ids) for count, ids in zip(wanted, decided, strict=True)])
             if len(kept) < len(wanted):
                 passes.select(kept)
 

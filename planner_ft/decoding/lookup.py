@@ -27,13 +27,14 @@ Likeness = Callable[[int], Hashable]
 class Lookup:
     """Drafts for one answer, from its prompt and the answer so far, then from `base`. `likeness`
     maps a token to what is compared, so that a word at the start of a string matches the one after
-    a space.
+    a space; a base has its own.
     """
 
     def __init__(
         self, prompt: Sequence[int] = (), likeness: Likeness = int, base: Lookup | None = None
     ) -> None:
-        self._likeness, self._base = likeness, base
+        self._likeness: Likeness = base._likeness if base else likeness
+        self._base = base
         self._likes: list[Hashable] = []
         self._followers: dict[tuple[Hashable, ...], int] = {}
         for token in prompt:
@@ -47,14 +48,14 @@ class Lookup:
 
     def propose(self, count: int, after: Sequence[int] = ()) -> list[int]:
         """At most `count` tokens that may follow the text and the tokens `after` it."""
-        likes = [*self._likes[-LONGEST_MATCH:], *map(self._likeness, after)][-LONGEST_MATCH:]
-        draft = list[int]()
+        likes, draft = [*self._likes[-LONGEST_MATCH:], *map(self._likeness, after)], list[int]()
         while len(draft) < count and (token := self._likely(likes)) is not None:
             draft.append(token)
-            likes = [*likes[1 - LONGEST_MATCH :], self._likeness(token)]
+            likes.append(self._likeness(token))
         return draft
 
     def _likely(self, likes: list[Hashable]) -> int | None:
+        """The token that followed the longest end of some tokens."""
         for length in range(min(LONGEST_MATCH, len(likes)), 0, -1):
             before = tuple(likes[-length:])
             for known in (self, self._base):

@@ -5,7 +5,6 @@ transformers. `forward` has those of small models.
 from __future__ import annotations
 
 import inspect
-import itertools
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,7 +12,7 @@ import torch
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
-from planner_ft.decoding.forward import SmallModel
+from planner_ft.decoding.forward import SmallModel, begin_alike
 
 SHARED = 16
 """Tokens that prompts must share for a pass of their own: below, it costs more than it saves."""
@@ -22,8 +21,8 @@ SHARED = 16
 class ModelDecoder:
     """A transformers model with its active adapter; short prompts are padded left."""
 
-    def __init__(self, model: Any, pad_id: int) -> None:
-        self.model, self.pad_id = model, pad_id
+    def __init__(self, model: Any) -> None:
+        self.model = model
         self.context: int | None = getattr(model.config, "max_position_embeddings", None)
         base = model.get_base_model() if hasattr(model, "get_base_model") else model
         # The last positions' logits alone, if the model can: with a vocabulary of 128k that saves
@@ -63,10 +62,7 @@ class _ModelPasses:
         """
         if len(feeds) > 1 and not self.mask.shape[1]:
             feeds = self._begin_together(feeds)
-        ids, mask = self._padded(feeds)
-        self.mask = torch.cat([self.mask, mask], 1)
-        positions = (self.mask.cumsum(1) - 1).clamp(min=0)[:, -ids.shape[1] :]
-        logits = self._forward(ids, self.mask, positions, max(wanted))
+        logits = self._forward(feeds, max(wanted))
         return torch.cat([row[-count:] for row, count in zip(logits, wanted, strict=True)])
 
     def forget(self, counts: Sequence[int]) -> None:
@@ -85,26 +81,25 @@ class _ModelPasses:
         """Compute all prompts' common beginning once; what is left of each, a token at least."""
         from transformers.cache_utils import DynamicLayer
 
-        columns = zip(*feeds, strict=False)
-        shared = sum(1 for _ in itertools.takewhile(lambda ids: len(set(ids)) == 1, columns))
+        shared = min(begin_alike(feeds[0], feed) for feed in feeds)
         count = min(shared, min(map(len, feeds)) - 1)
         if count < SHARED or not all(type(layer) is DynamicLayer for layer in self.cache.layers):
             return feeds
-        ids = torch.tensor([feeds[0][:count]], device=self.device)
-        self._forward(ids, torch.ones_like(ids), torch.arange(count, device=self.device)[None], 1)
-        self.mask = torch.ones_like(ids)
+        self.mask = self.mask[:1]
+        self._forward([feeds[0][:count]], 1)
         self.select([0] * len(feeds))
         return [feed[count:] for feed in feeds]
 
-    def _forward(self, ids: Tensor, mask: Tensor, positions: Tensor, wanted: int) -> Tensor:
-        options: dict[str, Any] = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
-        options |= {"past_key_values": self.cache, "use_cache": True, "position_ids": positions}
-        logits: Tensor = self.decoder.model(input_ids=ids, attention_mask=mask, **options).logits
-        return logits
-
-    def _padded(self, feeds: Sequence[Sequence[int]]) -> tuple[Tensor, Tensor]:
-        """Ids padded on the left, and their mask."""
+    def _forward(self, feeds: Sequence[Sequence[int]], wanted: int) -> Tensor:
+        """The last `wanted` logits of each row: (rows, wanted, tokens)."""
         rows = [torch.tensor(feed, device=self.device) for feed in feeds]
         left: dict[str, Any] = {"batch_first": True, "padding_side": "left"}
-        ids = pad_sequence(rows, padding_value=self.decoder.pad_id, **left)
-        return ids, pad_sequence([torch.ones_like(row) for row in rows], **left)
+        ids = pad_sequence(rows, **left)
+        fed = pad_sequence([torch.ones_like(row) for row in rows], **left)
+        self.mask = torch.cat([self.mask, fed], 1)
+        positions = (self.mask.cumsum(1) - 1).clamp(min=0)[:, -ids.shape[1] :]
+        options: dict[str, Any] = {"logits_to_keep": wanted} if self.decoder.trims_logits else {}
+        options |= {"past_key_values": self.cache, "use_cache": True, "position_ids": positions}
+        how = {"input_ids": ids, "attention_mask": self.mask, **options}
+        logits: Tensor = self.decoder.model(**how).logits
+        return logits

@@ -9,9 +9,8 @@ what was drafted or forced, as long as the logits do not.
 from __future__ import annotations
 
 import hashlib
-import itertools
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -22,7 +21,7 @@ from torch import Tensor
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
 from planner_ft.decoding.constraints.answer import Factory
-from planner_ft.decoding.lookup import LONGEST_DRAFT, Likeness, Lookup
+from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
@@ -64,23 +63,13 @@ class Sampling:
         digest = hashlib.sha256(f"{self.seed}\0{self.repeat}\0{name}".encode()).digest()
         return int.from_bytes(digest[:16])
 
-    def sampler(self, name: str, longest: int) -> Sampler:
-        """The random numbers of one answer of at most `longest` tokens."""
-        numbers = np.random.default_rng(self.seed_of(name)).random(longest)
-        return Sampler(self.temperature, self.top_p, numbers)
+    def numbers(self, name: str, longest: int) -> NDArray[np.float64]:
+        """A random number in [0, 1) for every place of an answer of at most `longest` tokens."""
+        return np.random.default_rng(self.seed_of(name)).random(longest)
 
-
-@dataclass(frozen=True)
-class Sampler:
-    """Draws the tokens of one answer; `numbers` holds one in [0, 1) for every place in it."""
-
-    temperature: float
-    top_p: float
-    numbers: NDArray[np.float64]
-
-    def draw(self, place: int, logits: Tensor, allowed: Mask | None = None) -> int:
-        """The token at a place of the answer from its logits, shape (tokens); with `allowed`, one
-        of those that a constraint allows.
+    def draw(self, number: float, logits: Tensor, allowed: Mask | None = None) -> int:
+        """The token that a random number gives from logits, shape (tokens); with `allowed`, one of
+        those that a constraint allows.
 
         By inversion over token ids, in float64: where rounding swaps two tokens of like
         probability, what is drawn stays the same.
@@ -96,7 +85,7 @@ class Sampler:
             before = weights[order].cumsum() - weights[order]
             weights[order[before >= self.top_p * weights.sum()]] = 0
         cumulative = weights.cumsum()
-        drawn = np.searchsorted(cumulative, self.numbers[place] * cumulative[-1], side="right")
+        drawn = np.searchsorted(cumulative, number * cumulative[-1], side="right")
         # Rounding may put the number at the very end, where tokens without any weight may stand.
         return min(int(drawn), int(np.flatnonzero(weights)[-1]))
 
@@ -150,17 +139,15 @@ class Method:
     `sampling` and `entries` alone.
 
     Without `sampling` the most probable token is taken. `constraint` is enforced, and with
-    `fast_forward` the tokens that must follow are fed together. With `drafting` likely tokens are
-    verified in one pass, from the prompt, the answer so far and `base` (see `lookup`). `entries`
-    counts the tasks or steps of an answer's tokens: a constrained answer with more than twice as
-    many as the free one, and two, is given up.
+    `fast_forward` the tokens that must follow are fed together. With a `lookup` likely tokens are
+    verified in one pass: from the prompt, the answer so far, then from it. `entries` counts the
+    tasks or steps of an answer's tokens: a constrained answer with more than twice as many as the
+    free one, and two, is given up.
     """
 
     constraint: Factory | None = None
     fast_forward: bool = True
-    drafting: bool = True
-    likeness: Likeness = int
-    base: Lookup | None = None
+    lookup: Lookup | None = field(default_factory=Lookup)
     sampling: Sampling | None = None
     entries: Callable[[Sequence[int]], int] | None = None
 
@@ -172,8 +159,8 @@ class SequenceState:
     `pending`, and `draft` stands behind them: what the constraint says must follow, then what
     `lookup` finds likely. `diverged` is the place of the first token that the model without the
     constraint would not have chosen. `scores` are those of `ids`, None where no pass has decided a
-    token, and `decided` is how many tokens the last one did. Where `enough(ids)` holds, the answer
-    stays. Raises PlannerError when the constraint needs more room than `longest` tokens.
+    token. Where `enough(ids)` holds, the answer stays. Raises PlannerError when the constraint
+    needs more room than `longest` tokens.
     """
 
     def __init__(
@@ -187,18 +174,18 @@ class SequenceState:
         enough: Callable[[Sequence[int]], bool] = lambda ids: False,
     ) -> None:
         self.query, self.method, self.limits, self.longest = query, method, limits, longest
-        prompt, rules, sampling = query.prompt, method.constraint, method.sampling
+        rules, sampling, base = method.constraint, method.sampling, method.lookup
         self.constraint = rules.start(query.record, longest, most) if rules else None
-        self.lookup = Lookup(prompt, method.likeness, method.base) if method.drafting else None
-        self.sampler = sampling.sampler(query.name, longest) if sampling else None
+        self.lookup = Lookup(query.prompt, base=base) if base else None
+        self.numbers = sampling.numbers(query.name, longest) if sampling else ()
         self._enough, self._wide = enough, True
-        self.ids, self.decided, self.forward_passes = list[int](), 0, 0
+        self.ids, self.forward_passes = list[int](), 0
         self.scores: list[Score | None] = [None] * len(begun)
         self.finished: FinishReason | None = None
         self.diverged: int | None = None
         for token in begun:
             self._add(token)
-        self.pending = [*prompt, *begun]
+        self.pending = [*query.prompt, *begun]
         self._propose()
 
     def feed(self, *, wide: bool) -> tuple[list[int], int]:
@@ -209,44 +196,37 @@ class SequenceState:
             self.draft.clear()
         return self.pending + self.draft, 1 + len(self.draft)
 
-    def choose(self, best: Sequence[int], logits: Tensor) -> int:
-        """Take what the pass decided: the most probable tokens (`best`) of its wanted logits, shape
-        (wanted, tokens), where they are allowed.
-
-        Returns how many of the fed tokens were a wrong draft.
+    def choose(self, best: Sequence[int], logits: Tensor) -> list[int]:
+        """Take the tokens that the pass decided: the most probable ones (`best`) of its wanted
+        logits, shape (wanted, tokens), where they are allowed, up to the first that the draft had
+        not.
         """
-        right, draft = 0, self.draft
-        while True:
-            token = self._choice(best[right], logits[right])
-            self._add(token)
+        decided = list[int]()
+        for place, drafted in enumerate([*self.draft, None]):
+            decided.append(self._choice(best[place], logits[place]))
+            self._add(decided[-1])
             complete = self.constraint is not None and self.constraint.ended
             if complete and self.method.fast_forward and not self.finished:
                 self._add(self.limits.end_ids[0])
-            if self.finished or draft[right : right + 1] != [token]:
+            if self.finished or decided[-1] != drafted:
                 break
-            right += 1
-        self.pending, self.decided = [token], right + 1
+        self.pending = decided[-1:]
         if not self.finished and self._enough(self.ids):
             self.finished = "stop"
         self._propose()
-        return len(draft) - right
+        return decided
 
-    @property
-    def latest(self) -> list[int]:
-        """The tokens that the last pass decided, until they are rated."""
-        return self.ids[len(self.scores) :][: self.decided]
-
-    def rate(self, scored: Iterator[Score]) -> None:
-        """Take the scores of the latest tokens, the next ones of these."""
-        self.scores += itertools.islice(scored, self.decided)
+    def rate(self, scored: Iterable[Score]) -> None:
+        """Take the scores of the tokens that the last pass decided."""
+        self.scores += scored
         self.scores += [None] * (len(self.ids) - len(self.scores))
 
     def _choice(self, best: int, logits: Tensor) -> int:
         """The token that the model takes, `best` where it may."""
-        constraint = self.constraint
-        if self.sampler is not None:
+        constraint, sampling = self.constraint, self.method.sampling
+        if sampling is not None:
             mask = constraint.mask() if constraint else None
-            return self.sampler.draw(len(self.ids), logits, mask)
+            return sampling.draw(self.numbers[len(self.ids)], logits, mask)
         if constraint is None:
             return best
         latest = {best, *self.ids[-LONGEST_RUN:]}

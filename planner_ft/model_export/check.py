@@ -159,8 +159,8 @@ class Answers:
         from planner_ft.decoding.passes import ModelDecoder
 
         ends = ends_of_answers(self.tokenizer, model.generation_config.eos_token_id)
-        limits = Limits(tuple(ends), int(self.tokenizer.pad_token_id), MAX_NEW_TOKENS[self.level])
-        answers = generate(ModelDecoder(model, limits.pad_id), self.queries, limits, batch_size=1)
+        limits = Limits(tuple(ends), MAX_NEW_TOKENS[self.level])
+        answers = generate(ModelDecoder(model), self.queries, limits, batch_size=1)
         return [answer.ids for answer in answers]
 
     def logits(self, model: Any, answers: Sequence[Sequence[int]]) -> list[Any]:

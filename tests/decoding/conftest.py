@@ -56,4 +56,4 @@ def toy_model() -> Any:
 @pytest.fixture(params=["transformers", "small"])
 def decoder(request: pytest.FixtureRequest, toy_model: Any) -> Decoder:
     """The same model, as transformers computes it and as `forward` does."""
-    return small(toy_model) if request.param == "small" else ModelDecoder(toy_model, 0)
+    return small(toy_model) if request.param == "small" else ModelDecoder(toy_model)

@@ -12,6 +12,7 @@ import torch
 from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.candidates.loading import load_model
+from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.configurations import STRENGTHS, Configuration, Strength
 from planner_ft.decoding.engine import Engine
 from planner_ft.decoding.passes import ModelDecoder
@@ -167,3 +168,25 @@ def test_batches_and_single_queries_give_the_same_answers(embedded: Engine) -> N
             alone.ids,
             alone.forward_passes,
         )
+
+
+def test_latency_is_of_single_queries_after_one_that_is_not_counted(
+    embedded: Engine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[list[Query]] = []
+    generate = generate_module.generate
+
+    def counting(*args: Any) -> Any:
+        calls.append(args[1])
+        return generate(*args)
+
+    monkeypatch.setattr(generate_module, "generate", counting)
+    queries = [embedded.query("mission", {"prompt": f"Go to [{x}, 5]."}) for x in (3, 4, 5)]
+    measured = dict(embedded.latencies(queries, BASE))
+    assert calls == [[query] for query in (queries[0], *queries)]
+    assert sorted(measured) == [0, 1, 2]
+    for index, one in measured.items():
+        alone = embedded.answer(queries[index], BASE)
+        assert one.seconds > 0
+        assert (one.ids, one.forward_passes) == (alone.ids, alone.forward_passes)
+    assert not list(embedded.latencies([], BASE))

@@ -18,7 +18,7 @@ from planner_ft.decoding.sequence import Method, Query, SequenceState
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY, END = 64, 2
-LIMITS = Limits((END, 5), 0, 60)
+LIMITS = Limits((END, 5), 60)
 
 
 class Toy:
@@ -100,8 +100,8 @@ def toy_queries(count: int) -> list[Query]:
     ]
 
 
-ENFORCED = Method(ToyFactory(), drafting=False)
-STEP_BY_STEP = Method(ToyFactory(), fast_forward=False, drafting=False)
+ENFORCED = Method(ToyFactory(), lookup=None)
+STEP_BY_STEP = Method(ToyFactory(), fast_forward=False, lookup=None)
 QUERIES = toy_queries(8)
 ROUNDS = [query.record["rounds"] for query in QUERIES]
 
@@ -156,7 +156,7 @@ def test_small_rows_of_a_batch_skip_ahead_on_their_own(decoder: Decoder) -> None
 
 def test_the_limit_cuts_in_the_middle_of_what_is_forced(decoder: Decoder, toy_model: Any) -> None:
     expected = [reference(toy_model, query)[:8] for query in QUERIES]
-    answers = generate(decoder, QUERIES, Limits((END,), 0, 8), ENFORCED, batch_size=4)
+    answers = generate(decoder, QUERIES, Limits((END,), 8), ENFORCED, batch_size=4)
     assert [list(answer.ids) for answer in answers] == expected
     assert [answer.finish_reason for answer in answers] == [
         "stop" if rounds == 1 else "length" for rounds in ROUNDS
@@ -170,7 +170,7 @@ def test_a_token_is_allowed_whatever_the_logits_are() -> None:
         torch.full((1, VOCABULARY), torch.inf),
     ):
         query = Query("mission", {"rounds": 1}, (3,))
-        row = SequenceState(query, Method(ToyFactory(), drafting=False), LIMITS, 9)
+        row = SequenceState(query, Method(ToyFactory(), lookup=None), LIMITS, 9)
         _fed, wanted = row.feed(wide=True)
         rows = logits.expand(wanted, -1)
         row.choose(rows.argmax(-1).tolist(), rows.half())
@@ -208,7 +208,7 @@ def test_what_forced_the_end_is_the_token_that_is_trained(
         ) -> Toy:
             return Two(record["rounds"])
 
-    (answer,) = generate(decoder, QUERIES[:1], Limits(ends, 0, 60), Method(Factory()))
+    (answer,) = generate(decoder, QUERIES[:1], Limits(ends, 60), Method(Factory()))
     assert answer.ids[-1] == ends[0]
 
 

@@ -19,8 +19,15 @@ from planner_ft.candidates import Candidate, resolve_candidate
 from planner_ft.candidates.adapters import adapter_record
 from planner_ft.candidates.loading import compute_dtype, load_model
 from planner_ft.candidates.weights import dynamic_values, rounded_to_nf4
-from planner_ft.decoding.attention import BLOCK, KEYS, attention
-from planner_ft.decoding.forward import SmallModel, SmallPasses, read_forms, small_model
+from planner_ft.decoding.forward import (
+    BLOCK,
+    KEYS,
+    SmallModel,
+    SmallPasses,
+    attention,
+    read_forms,
+    small_model,
+)
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import load_vocabulary
@@ -187,9 +194,9 @@ def test_what_long_prompts_have_in_common_is_computed_once(
     computed = Counter[str]()
     run = SmallPasses._run
 
-    def counted(self: SmallPasses, grid: Any, feeds: Any, wanted: Any) -> Tensor:
+    def counted(self: SmallPasses, rows: Any, starts: Any, feeds: Any, wanted: Any) -> Tensor:
         computed["kept" if self.model is model else "alone"] += sum(map(len, feeds))
-        return run(self, grid, feeds, wanted)
+        return run(self, rows, starts, feeds, wanted)
 
     monkeypatch.setattr(SmallPasses, "_run", counted)
     prompts = [IDS, [*IDS[:280], 5, 6, 7], [*IDS[:280], 9, 9], [8, *IDS[:200]]]

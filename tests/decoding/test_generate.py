@@ -9,9 +9,8 @@ from typing import Any
 import pytest
 import torch
 
-from planner_ft.decoding import generate as generate_module
 from planner_ft.decoding.configurations import Limits
-from planner_ft.decoding.generate import Generation, measure_latency
+from planner_ft.decoding.generate import Generation
 from planner_ft.decoding.generate import generate as generate_answers
 from planner_ft.decoding.generate import generate_unordered as generate_answers_unordered
 from planner_ft.decoding.passes import ModelDecoder
@@ -53,7 +52,7 @@ def prompts(count: int, longest: int = 60) -> list[list[int]]:
 
 
 def limits(*ends: int, most: int = 40) -> Limits:
-    return Limits(ends or (2,), 0, most)
+    return Limits(ends or (2,), most)
 
 
 def asked(queries: Sequence[list[int]]) -> list[Query]:
@@ -63,13 +62,13 @@ def asked(queries: Sequence[list[int]]) -> list[Query]:
 def generate(
     model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any
 ) -> list[Generation]:
-    return generate_answers(ModelDecoder(model, 0), asked(queries), limits, **settings)
+    return generate_answers(ModelDecoder(model), asked(queries), limits, **settings)
 
 
 def generate_unordered(
     model: Any, queries: Sequence[list[int]], limits: Limits, **settings: Any
 ) -> Iterator[tuple[int, Generation]]:
-    return generate_answers_unordered(ModelDecoder(model, 0), asked(queries), limits, **settings)
+    return generate_answers_unordered(ModelDecoder(model), asked(queries), limits, **settings)
 
 
 def reference(model: Any, prompt: list[int], limits: Limits) -> list[int]:
@@ -189,30 +188,6 @@ def test_too_little_memory_names_the_flag(model: Any, monkeypatch: pytest.Monkey
     monkeypatch.setattr(model, "forward", full)
     with pytest.raises(PlannerError, match="--batch-size 4"):
         generate(model, prompts(4), limits(), batch_size=4)
-
-
-def test_latency_is_of_single_queries_after_one_that_is_not_counted(
-    model: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    calls: list[list[Query]] = []
-
-    def counting(*args: Any) -> Any:
-        calls.append(args[1])
-        return generate_answers(*args)
-
-    monkeypatch.setattr(generate_module, "generate", counting)
-    queries, decoder = prompts(3), ModelDecoder(model, 0)
-    measured = dict(measure_latency(decoder, asked(queries), limits(5, 9)))
-    assert calls == [asked([query]) for query in (queries[0], *queries)]
-    assert sorted(measured) == [0, 1, 2]
-    for index, one in measured.items():
-        assert one.seconds > 0
-        assert (
-            len(one.ids)
-            == one.forward_passes
-            == len(reference(model, queries[index], limits(5, 9)))
-        )
-    assert not list(measure_latency(decoder, [], limits()))
 
 
 def test_every_end_token_of_the_published_candidates_ends_an_answer(models: Any) -> None:

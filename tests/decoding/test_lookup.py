@@ -43,7 +43,7 @@ QUERIES = [
     Query("mission", {}, tuple(random.Random(seed).choices(range(3, 64), k=5 + 7 * seed)))
     for seed in range(6)
 ]
-LIMITS = Limits((5, 9), 0, 80)
+LIMITS = Limits((5, 9), 80)
 
 
 @pytest.fixture
@@ -85,7 +85,7 @@ def test_drafts_do_not_reach_beyond_the_limit(decoder: Decoder) -> None:
             return passes
 
     query = Query("mission", {}, (7,) * 30)
-    generate(Recording(), [query], Limits((65,), 0, 3), Method())
+    generate(Recording(), [query], Limits((65,), 3), Method())
     assert fed[0] == len(query.prompt) + 2
     assert max(fed[1:], default=1) <= 1 + LONGEST_DRAFT
 
@@ -118,7 +118,7 @@ def test_other_kinds_of_models_give_the_same_answers(kind: str) -> None:
                 initializer_range=0.5,
             )
         ).eval()
-    decoder = ModelDecoder(model, 0)
+    decoder = ModelDecoder(model)
     plain = generate(decoder, QUERIES, LIMITS, PLAIN, batch_size=1)
     drafted = generate(decoder, QUERIES, LIMITS, Method(), batch_size=1)
     assert [answer.ids for answer in drafted] == [answer.ids for answer in plain]

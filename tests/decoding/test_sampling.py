@@ -15,12 +15,13 @@ import torch
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
 from planner_ft.decoding.generate import generate
+from planner_ft.decoding.lookup import Lookup
 from planner_ft.decoding.passes import Decoder
-from planner_ft.decoding.sequence import Method, Query, Sampler, Sampling, SequenceState
+from planner_ft.decoding.sequence import Method, Query, Sampling, SequenceState
 from planner_ft.support.errors import PlannerError
 
 VOCABULARY = 64
-LIMITS = Limits((2, 5, 9), 0, 40)
+LIMITS = Limits((2, 5, 9), 40)
 RNG = random.Random(0)
 QUERIES = [
     Query(
@@ -34,8 +35,8 @@ def drawn(
     logits: list[float], count: int = 20_000, allowed: Mask | None = None, **settings: float
 ) -> Counter[int]:
     numbers = np.random.default_rng(0).random(count)
-    sampler = Sampler(settings.get("temperature", 1.0), settings.get("top_p", 1.0), numbers)
-    return Counter(sampler.draw(place, torch.tensor(logits), allowed) for place in range(count))
+    sampling = Sampling(settings.get("temperature", 1.0), settings.get("top_p", 1.0))
+    return Counter(sampling.draw(number, torch.tensor(logits), allowed) for number in numbers)
 
 
 def mask(*tokens: int) -> Mask:
@@ -47,7 +48,8 @@ def mask(*tokens: int) -> Mask:
 def answers(
     decoder: Decoder, sampling: Sampling | None, queries: list[Query] = QUERIES, **settings: Any
 ) -> list[tuple[int, ...]]:
-    method = Method(fast_forward=False, drafting=settings.pop("drafting", False), sampling=sampling)
+    lookup = Lookup() if settings.pop("drafting", False) else None
+    method = Method(fast_forward=False, lookup=lookup, sampling=sampling)
     return [answer.ids for answer in generate(decoder, queries, LIMITS, method, **settings)]
 
 
@@ -118,7 +120,7 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
             return Forcing()
 
     def sampled(*, fast_forward: bool) -> list[int]:
-        method = Method(Factory(), fast_forward, drafting=False, sampling=Sampling(1.0))  # type: ignore[arg-type]
+        method = Method(Factory(), fast_forward, lookup=None, sampling=Sampling(1.0))  # type: ignore[arg-type]
         row = SequenceState(Query("mission", {"id": "a"}, (1,)), method, LIMITS, 12)
         while not row.finished:
             _fed, wanted = row.feed(wide=True)

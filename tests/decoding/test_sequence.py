@@ -16,7 +16,7 @@ from planner_ft.decoding.passes import Decoder
 from planner_ft.decoding.sequence import LIKELIEST, Method, Query, scores
 
 END = 2
-LIMITS = Limits((END,), 0, 24)
+LIMITS = Limits((END,), 24)
 QUERIES = [Query("mission", {}, tuple(range(3, 3 + length))) for length in (4, 9, 23)]
 
 
@@ -33,7 +33,7 @@ def reference(model: Any, query: Query, answer: Generation) -> torch.Tensor:
 def test_scores_are_the_log_probabilities_of_the_model(
     decoder: Decoder, toy_model: Any, drafting: bool
 ) -> None:
-    method = Method(drafting=drafting, base=Lookup(range(3, 40)))
+    method = Method(lookup=Lookup(range(3, 40)) if drafting else None)
     for query, answer in zip(
         QUERIES, generate(decoder, QUERIES, LIMITS, method, batch_size=2), strict=True
     ):

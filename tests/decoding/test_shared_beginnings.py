@@ -12,7 +12,7 @@ from planner_ft.decoding.generate import Generation, generate
 from planner_ft.decoding.passes import SHARED, ModelDecoder
 from planner_ft.decoding.sequence import Query
 
-LIMITS = Limits((2,), 0, 30)
+LIMITS = Limits((2,), 30)
 
 
 class Counted:
@@ -20,7 +20,7 @@ class Counted:
 
     def __init__(self, model: Any) -> None:
         self.positions = 0
-        self.decoder = ModelDecoder(model, 0)
+        self.decoder = ModelDecoder(model)
         model.register_forward_pre_hook(self._count, with_kwargs=True)
 
     def _count(self, _model: Any, _arguments: Any, named: dict[str, Any]) -> None:
@@ -48,7 +48,7 @@ def beginning(length: int) -> list[int]:
 def test_answers_are_those_of_prompts_alone(
     make_llama: Callable[..., Any], rests: list[list[int]]
 ) -> None:
-    decoder = ModelDecoder(make_llama(), 0)
+    decoder = ModelDecoder(make_llama())
     prompts = [beginning(150) + rest for rest in rests]
     alone, together = answers(decoder, prompts, 1), answers(decoder, prompts, len(prompts))
     assert [answer.ids for answer in together] == [answer.ids for answer in alone]
@@ -96,7 +96,7 @@ def test_layers_with_a_window_share_nothing(make_llama: Callable[..., Any]) -> N
         )
     ).eval()
     prompts = [[*beginning(40), 5 + row] for row in range(3)]
-    decoder = ModelDecoder(model, 0)
+    decoder = ModelDecoder(model)
     assert [answer.ids for answer in answers(decoder, prompts, 3)] == [
         answer.ids for answer in answers(decoder, prompts, 1)
     ]

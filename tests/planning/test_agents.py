@@ -172,8 +172,7 @@ def loads(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 def ask_both(planner: Planner) -> None:
     for engine in (planner.agents.load(level) for level in LEVELS):
         engine.limits = {
-            level: type(limits)(limits.end_ids, limits.pad_id, 8)
-            for level, limits in engine.limits.items()
+            level: type(limits)(limits.end_ids, 8) for level, limits in engine.limits.items()
         }
     for level in LEVELS:
         assert not planner.agents.ask(level, RECORDS[level]).plan
@@ -194,8 +193,7 @@ def test_records_are_answered_together_as_one_by_one(here: Path) -> None:
     agents = Planner.load(QWEN, configuration="lora", device="cpu").agents
     engine = agents.load("mission")
     engine.limits = {
-        level: type(limits)(limits.end_ids, limits.pad_id, 8)
-        for level, limits in engine.limits.items()
+        level: type(limits)(limits.end_ids, 8) for level, limits in engine.limits.items()
     }
     records = [{"prompt": text} for text in ("go home", "hold here for two minutes")]
     alone = [agents.ask("mission", record).text for record in records]

@@ -21,6 +21,7 @@ from planner_ft.decoding.constraints.patterns import DECIMALS, WHOLE_DIGITS
 from planner_ft.decoding.constraints.scripts import MissionScript, TaskScript
 from planner_ft.decoding.constraints.tokens import Tokens, allows, tokens_of
 from planner_ft.decoding.constraints.waypoints import Waypoints, read_waypoints
+from planner_ft.facts import read_input
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Skill, Task, Vocabulary
@@ -43,10 +44,12 @@ class Answer:
     """An answer that follows a script and ends within `limit` tokens.
 
     The last `reserve` of them are for closing what is open: texts end, lists and objects close as
-    soon as the grammar lets them; `cut` says so. `without_facts` is the same script without the
-    facts of the input: a part of the answer is released to it where the model finds no value with
-    evidence likely.
+    soon as the grammar lets them; `cut` says so. `loose` is the same script without the facts of
+    the input: a part of the answer is released to it where the model finds no value with evidence
+    likely.
     """
+
+    _matcher: LLMatcher | None
 
     def __init__(
         self,
@@ -55,24 +58,21 @@ class Answer:
         limit: int,
         reserve: int,
         notes: Notes = lambda _: [],
-        without_facts: lark.Script | None = None,
+        loose: lark.Script | None = None,
     ) -> None:
         self.cut = False
         self._tokens, self._left, self._reserve, self._notes = tokens, limit, reserve, notes
-        self._script, self._loose_script = script, without_facts
-        self._matcher: LLMatcher | None = tokens.compile(script.opening())
-        self._loose = tokens.compile(without_facts.opening()) if without_facts else None
-        self._released: dict[str, None] = {}
+        self._script, self._loose, self._released = script, loose, dict[str, None]()
         self._ids: list[int] = []
-        self._begun = 0
         self._mask = tokens.mask_of(())
+        self._advance()
 
     @property
     def notes(self) -> list[str]:
         """Sentences for the plan's assumptions: what could not be read from the command, and values
         without evidence in it that were left to the model.
         """
-        text = self._tokens.text_of(self._ids).decode(errors="ignore")
+        text = self._text.decode(errors="ignore")
         return [*self._notes(text), *(RELEASED.format(name=name) for name in self._released)]
 
     @property
@@ -89,8 +89,11 @@ class Answer:
         self._matcher.unsafe_compute_mask_ptr(self._mask.ctypes.data, self._mask.nbytes)
         if not self._hurried:
             growing = self._tokens.growing(self._ids, self._matcher)
-            return self._tokens.mask_of(tuple(growing)) if growing else self._mask
-        narrowed = self._closing(self._mask)
+            return self._tokens.mask_of(growing) if growing else self._mask
+        # What leads to the end: a sign that closes, if there is one.
+        signs = (self._tokens.byte[sign] for sign in ('"' if self._inside else "]},"))
+        closing = [sign for sign in signs if sign is not None and allows(self._mask, sign)][:1]
+        narrowed = self._tokens.mask_of(closing) if closing else self._mask
         self.cut = self.cut or not np.array_equal(narrowed, self._mask)
         return narrowed
 
@@ -109,12 +112,16 @@ class Answer:
         """Leave the value that is being written to the model, which would go on with `token`, a
         token without evidence. False where more than evidence forbids it.
         """
-        open_ = self._matcher is not None and not self._hurried
-        if not open_ or self._loose is None or not self._loose.validate_tokens([token]):
+        if self._matcher is None or self._hurried or self._loose is None:
             return False
-        self._matcher, chosen = self._loose.deep_copy(), self._script.chosen
-        if chosen is not None:
-            self._released[lark.name_of(chosen)] = None
+        before, begun = self._ids[: self._begun], self._ids[self._begun :]
+        loose = self._tokens.matcher(self._loose, before)
+        if loose is None or loose.validate_tokens([*begun, token]) <= len(begun):
+            return False
+        loose.consume_tokens(begun)
+        self._matcher = loose
+        name = self._tokens.text_of(before).decode().rpartition(self._script.opens)[2]
+        self._released |= {name: None} if name else {}
         return True
 
     def accept(self, token: int) -> None:
@@ -127,10 +134,8 @@ class Answer:
         if barred or not (
             self._matcher.validate_tokens([token]) and self._matcher.consume_token(token)
         ):
-            said = self._tokens.bytes_of(token)
+            said = self._tokens.text_of([token])
             raise ValueError(f"token {token} ({said!r}) is not allowed here")
-        if self._loose is not None and not self._loose.consume_token(token):
-            self._loose = None
         self._ids.append(token)
         self._left -= 1
         if self._matcher.is_accepting():
@@ -138,25 +143,27 @@ class Answer:
 
     def admits(self, tokens: Sequence[int]) -> int:
         """How many of these tokens in a row are allowed from here. The state is unchanged."""
-        if self._matcher is None:
-            return int(bool(tokens) and tokens[0] in self._tokens.end_ids)
         room = max(self._left - self._reserve - 1, 0)
-        within = self._matcher.validate_tokens(list(tokens[:room]))
+        within = self._matcher.validate_tokens(list(tokens[:room])) if self._matcher else 0
         if within == len(tokens):
             return within
         # Behind the end of this grammar, or near the limit: step by step, on a copy.
         ahead = copy.copy(self)
-        ahead._matcher, ahead._mask = self._matcher.deep_copy(), self._tokens.mask_of(())
-        ahead._loose = None if self._loose is None else self._loose.deep_copy()
-        ahead._released, ahead._ids = dict(self._released), list(self._ids)
+        ahead._matcher = self._matcher and self._matcher.deep_copy()
+        ahead._mask, ahead._ids = self._tokens.mask_of(()), list(self._ids)
         for count, token in enumerate(tokens):
+            ended = ahead.ended
             try:
                 ahead.accept(token)
             except ValueError:
                 return count
-            if ahead.ended:
-                return count + 1 + ahead.admits(tokens[count + 1 :][:1])
+            if ended:
+                return count + 1
         return len(tokens)
+
+    @property
+    def _text(self) -> bytes:
+        return self._tokens.text_of(self._ids)
 
     @property
     def _hurried(self) -> bool:
@@ -165,52 +172,20 @@ class Answer:
     @property
     def _inside(self) -> bool:
         """Whether the answer stands within a text."""
-        return len(QUOTE.findall(self._tokens.text_of(self._ids))) % 2 == 1
-
-    def _closing(self, mask: Mask) -> Mask:
-        """The part of a mask that leads to the end: a sign that closes, if there is one."""
-        for sign in '"' if self._inside else "]},":
-            token = self._tokens.byte[sign]
-            if token is not None and allows(mask, token):
-                return self._tokens.mask_of((token,))
-        return mask
+        return len(QUOTE.findall(self._text)) % 2 == 1
 
     def _advance(self) -> None:
-        """Go on to the next grammar, with the text that the last one matched."""
-        text = self._tokens.text_of(self._ids[self._begun :]).decode()
-        following = self._script.following(text)
-        loose = self._loose_script.following(text) if self._loose_script and following else None
-        self._loose = self._tokens.compile(loose[0]) if loose else None
-        self._loose_script = loose[1] if loose else None
-        self._matcher, self._begun = None, len(self._ids)
-        if following is not None:
-            self._matcher, self._script = self._tokens.compile(following[0]), following[1]
-
-
-def constraint_factory(
-    tokenizer: Any,
-    level: Level,
-    vocabulary: Vocabulary,
-    strength: Strength,
-    end_ids: tuple[int, ...],
-    limit: int,
-    n_vocab: int | None = None,
-) -> Factory | None:
-    """What answers are constrained with; None at strength free.
-
-    `end_ids` are the tokens that may end an answer, `limit` the tokens that it may have, `n_vocab`
-    the width of the model's logits (None takes the tokenizer's size). Raises PlannerError for a
-    limit within which an answer cannot be guaranteed to end.
-    """
-    if strength == "free":
-        return None
-    tokens = tokens_of(tokenizer, tuple(end_ids), n_vocab)
-    return Factory(tokens, level, vocabulary, strength, limit)
+        """Go on to the grammar of what follows."""
+        self._begun = len(self._ids)
+        self._matcher = self._tokens.matcher(self._script, self._ids)
 
 
 @dataclass(frozen=True, eq=False)
 class Factory:
-    """Starts constraints of one strength, over one tokenizer, for one level and vocabulary."""
+    """Starts constraints of one strength, over one tokenizer, for one level and vocabulary; `limit`
+    is the number of tokens that an answer may have. Raises PlannerError for a limit within which an
+    answer cannot be guaranteed to end.
+    """
 
     tokens: Tokens
     level: Level
@@ -235,12 +210,15 @@ class Factory:
         given, unresolved = record.get("parameters"), list(self.vocabulary.unresolved)
         open_place = isinstance(given, dict) and unresolved in given.values()
         logical = self.strength != "schema" and not (self.level == "task" and open_place)
-        kind = MissionScript if self.level == "mission" else TaskScript
-        script = kind(self.vocabulary, lark.Values(), logical=logical and most is None)
+        script = self._script(self.vocabulary, lark.Values(), logical and most is None)
         script = script if most is None else replace(script, most=most)
         if self.strength != "grounded" or not script.logical:
             return Answer(self.tokens, script, limit, self.reserve)
         return self._grounded(record, limit, script)
+
+    @property
+    def _script(self) -> type[MissionScript] | type[TaskScript]:
+        return MissionScript if self.level == "mission" else TaskScript
 
     @functools.cached_property
     def reserve(self) -> int:
@@ -259,9 +237,7 @@ class Factory:
     @property
     def least_tokens(self) -> int:
         """The smallest limit within which every answer ends, beginning and end token included."""
-        sequence = "{" + lark.key("skill_sequence") + "["
-        opens = lark.mission_opens() if self.level == "mission" else sequence
-        return self.reserve + len(opens) + 1
+        return self.reserve + len(self._script.begins) + 1
 
     def _check(self, limit: int) -> None:
         if limit < self.least_tokens:
@@ -274,32 +250,52 @@ class Factory:
     def _grounded(
         self, record: dict[str, Any], limit: int, script: MissionScript | TaskScript
     ) -> Answer:
-        found = read_waypoints(record, self.vocabulary) if self.level == "task" else None
-        free = [found] if isinstance(found, str) else []
-        values = GroundedValues(self.level, record, self.vocabulary, free_waypoints=bool(free))
-        skills = self.vocabulary.skills
-        goes = [lark.SKILL_OPENS + skill.name for skill in skills if skill.coordinates]
+        if isinstance(script, MissionScript):
+            # A mission's places are stated or unresolved, its other values can be left out.
+            source = read_input({"prompt": record.get("prompt")}, self.vocabulary)
+            values = GroundedValues(source, free_waypoints=False)
+            script = replace(script, values=values)
+            return Answer(self.tokens, script, limit, self.reserve, lambda _: values.notes)
+        found, source = read_waypoints(record, self.vocabulary), read_input(record, self.vocabulary)
+        known, free = (found, []) if isinstance(found, Waypoints) else (None, [found])
+        values = GroundedValues(source, free_waypoints=known is None)
+        goes = [script.opens + one.name for one in self.vocabulary.skills if one.coordinates]
+        # The lanes of a grid follow from the task's own parameters: the model is not left to write
+        # others.
+        loose = replace(script, waypoints=known if known and known.whole else None, whole=known)
+        script = replace(loose, values=values, waypoints=known)
 
         def notes(text: str) -> list[str]:
             return [*values.notes, *(free if any(name in text for name in goes) else [])]
 
-        if not isinstance(script, TaskScript):
-            # A mission's places are stated or unresolved, its other values can be left out.
-            return Answer(self.tokens, replace(script, values=values), limit, self.reserve, notes)
-        known = found if isinstance(found, Waypoints) else None
-        steps = replace(script, values=values, waypoints=known, whole=known)
-        # The lanes of a grid follow from the task's own parameters: the model is not left to write
-        # others.
-        own = known if known and known.whole else None
-        loose = replace(script, waypoints=own, whole=known)
-        return Answer(self.tokens, steps, limit, self.reserve, notes, loose)
+        return Answer(self.tokens, script, limit, self.reserve, notes, loose)
+
+
+def constraint_factory(
+    tokenizer: Any,
+    level: Level,
+    vocabulary: Vocabulary,
+    strength: Strength,
+    end_ids: tuple[int, ...],
+    limit: int,
+    n_vocab: int | None = None,
+) -> Factory | None:
+    """What answers are constrained with; None at strength free.
+
+    `end_ids` are the tokens that may end an answer, `n_vocab` is the width of the model's logits
+    (None takes the tokenizer's size). Raises PlannerError as a Factory does.
+    """
+    if strength == "free":
+        return None
+    return Factory(tokens_of(tokenizer, end_ids, n_vocab), level, vocabulary, strength, limit)
 
 
 def _most_bytes(owner: Task | Skill) -> int:
     """Bytes of a name and the parameters that must be written, or the one that was begun."""
     every = owner.parameters
-    keys = (len(f",{lark.key(item.name)}".encode()) for item in every)
-    sizes = [own + _BYTES.get(of.type, LONGEST_WORD) for own, of in zip(keys, every, strict=True)]
+    sizes = [
+        len(f",{lark.key(one.name)}".encode()) + _BYTES.get(one.type, LONGEST_WORD) for one in every
+    ]
     needed = bool(owner.require_any) or any(item.required for item in every)
     opens = len(compact_json({"name": lark.name_of(owner), "parameters": {}}).encode())
     return opens + (sum(sizes) if needed else max(sizes, default=0))

@@ -11,7 +11,7 @@ import functools
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar, NamedTuple, Self
 
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.patterns import literal, regex
@@ -28,13 +28,21 @@ LONGEST_TEXT = 200
 LONGEST_PROSE = 400
 """Characters of a parameter, and of a sentence; the longest labels have 55 and 181."""
 
-Numbers = Sequence[float]
-Positions = Sequence[Numbers]
 Symbol = str | None
 """The name of a rule or terminal; None where there is nothing to write."""
+Context = frozenset[str]
+"""What was written for the same owner that later parameters depend on."""
+Options = list[tuple[str, Context]]
+"""The symbols of a value, each with the context behind it."""
 
-TASK_OPENS = '{"title":"'
-SKILL_OPENS = '{"name":"'
+
+class Slot(NamedTuple):
+    """The place of a parameter's value in an entry for its owner, a task or skill."""
+
+    grammar: Grammar
+    owner: Any
+    parameter: Parameter
+    context: Context
 
 
 class Grammar:
@@ -51,43 +59,54 @@ class Grammar:
         """The name of a terminal (one lexeme, no recursion) with this body."""
         return self._names.setdefault(body, f"T{len(self._names)}")
 
+    def one_of(self, texts: Iterable[str]) -> Symbol:
+        """The terminal that matches one of the texts; None where there is none."""
+        options = list(dict.fromkeys(texts))
+        return self.terminal(" | ".join(map(literal, options))) if options else None
+
+    def items(self, item: Symbol, least: int = 0, most: int = MOST_TEXTS) -> str:
+        """The rule of a list; an empty one where there is no item."""
+        if not item:
+            return self.rule(literal("[]"))
+        some = f'{item} ("," {item}){{{max(least - 1, 0)},{most - 1}}}'
+        return self.rule(f'"[" {some} "]"' if least else f'"[" ({some})? "]"')
+
     def text(self, start: str) -> str:
         """The whole grammar; `start` is the body of its first rule."""
         lines = (f"{name}: {body}" for body, name in self._names.items())
         return "\n".join([f"start: {start}", *lines])
 
 
-Context = frozenset[str]
-"""What was written for the same owner that later parameters depend on."""
-IDENTIFIED: Context = frozenset({"id"})
-Options = list[tuple[str, Context]]
-"""The symbols of a value, each with the context behind it."""
-
-
 class Values:
     """What may be written as a value: all that the strict schema allows, up to the bounds above."""
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, context: Context) -> Options:
-        """The options of a parameter's value; none where there is nothing to write."""
-        symbol: Symbol
-        kind = parameter.type
+    def parameter(
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[Any] | None = None
+    ) -> Symbol:
+        """The symbol of a parameter's value, none of `without`. An identifier that must be another
+        one than those is a text.
+        """
+        kind, barred = parameter.type, without or ()
         if kind in ("number", "integer"):
-            symbol = self.number(grammar, parameter)
-        elif kind in ("position", "polygon"):
-            symbol = self.position(grammar)
-            symbol = corners(grammar, symbol) if symbol and kind == "polygon" else symbol
-        else:
-            symbol = self.identity(grammar) if kind == "id" else self.text(grammar)
-            symbol = items(grammar, symbol, MOST_TEXTS) if symbol and kind == "texts" else symbol
-        after = context | IDENTIFIED if kind == "id" else context
-        return [(symbol, after)] if symbol else []
+            return self.number(grammar, parameter, barred)
+        if kind == "position":
+            return self.position(grammar, barred)
+        if kind == "polygon":
+            corner = self.position(grammar, barred)
+            return grammar.items(corner, 3, MOST_CORNERS) if corner else None
+        if kind == "id" and without is None:
+            return self.identity(grammar)
+        text = self.text(grammar, [str(value) for value in barred])
+        return grammar.items(text) if text and kind == "texts" else text
 
-    def position(self, grammar: Grammar, without: Positions = ()) -> Symbol:
+    def position(self, grammar: Grammar, without: Sequence[Sequence[float]] = ()) -> Symbol:
         """The symbol of a position, none of `without`."""
         barred = none_of(literal(written(place)) for place in without)
         return grammar.terminal(f"{regex(patterns.ANY_POSITION)}{barred}")
 
-    def number(self, grammar: Grammar, parameter: Parameter, without: Numbers = ()) -> Symbol:
+    def number(
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[float] = ()
+    ) -> Symbol:
         """The symbol of a parameter's number, none of `without`."""
         whole, low, high = parameter.type == "integer", parameter.minimum, parameter.maximum
         pattern, beyond = patterns.any_number(whole=whole), list[str]()
@@ -116,88 +135,7 @@ class Values:
 
     def step_texts(self, grammar: Grammar, key: str) -> str:
         """The symbol of a step's stop_conditions, failure_modes or expected_outputs."""
-        return items(grammar, self.prose(grammar), MOST_TEXTS)
-
-
-@dataclass(frozen=True)
-class Script:
-    """The grammars of an answer, made as it grows. Each one ends where nothing can follow it, at a
-    place where no token spans both sides: where a name begins or ends, since tokenizers keep
-    letters and signs apart. A script does not change: a copy of an answer goes on with the same.
-
-    `values` are those that may be written; without `logical`, anything may follow anything. An
-    answer has at most `most` entries; `chosen` is the task or skill whose name was written last,
-    `written` the text of the entry that is being written as far as its parts are matched, `opens`
-    the text before a name.
-    """
-
-    vocabulary: Vocabulary
-    values: Values
-    logical: bool = True
-    most: int = 0
-    chosen: Any = None
-    written: str = ""
-    opens: str = ""
-
-    @property
-    def schema_alone(self) -> Script:
-        """This script without facts and logic."""
-        return replace(self, values=Values(), logical=False)
-
-    def opening(self) -> str:
-        """The first grammar."""
-        raise NotImplementedError
-
-    @property
-    def known(self) -> Sequence[Task] | Sequence[Skill]:
-        """What can be named next, whatever stands before."""
-        raise NotImplementedError
-
-    def offers(self, owner: Any) -> bool:
-        """Whether a task or skill may be named next."""
-        raise NotImplementedError
-
-    def read(self, text: str) -> Script:
-        """The script where a name follows the text of an entry, or what stands before the first."""
-        raise NotImplementedError
-
-    def behind(self, owners: Sequence[Any], *, names: bool) -> str:
-        """What may stand behind a name, up to the next one; with the name before it."""
-        raise NotImplementedError
-
-    def following(self, text: str) -> tuple[str, Script] | None:
-        """The next grammar and script behind a matched `text`; None: complete."""
-        named = {name_of(owner): owner for owner in self.known} if self.chosen is None else {}
-        if text in named:
-            chosen = replace(self, chosen=named[text], written=self.written + text)
-            return chosen.behind([chosen.chosen], names=False), chosen
-        if not text.endswith(self.opens):
-            return None
-        ahead = self.read(self.written + text)
-        return ahead.names(), ahead
-
-    def names(self) -> str:
-        """The names that may follow; with what stands behind them where one begins another."""
-        # A vocabulary can be such that nothing fits; the schema alone holds then.
-        offered = [owner for owner in self.known if self.offers(owner)] or list(self.known)
-        if prefix_free(map(name_of, self.known)):
-            return Grammar().text(" | ".join(literal(name_of(owner)) for owner in offered))
-        return self.behind(offered, names=True)
-
-    def entry(self, grammar: Grammar, owner: Task | Skill, *, named: bool) -> str:
-        """A task or skill behind its name, or with it where it is not `named` yet."""
-        behind = body(grammar, owner, self) or body(grammar, owner, self.schema_alone)
-        return f"{'' if named else literal(patterns.quoted(name_of(owner)))} {behind}"
-
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Any, context: Context
-    ) -> Options:
-        """The options of a parameter's value: here, whatever `values` allow."""
-        return self.values.parameter(grammar, parameter, context)
-
-    def needs(self, parameter: Parameter, owner: Any) -> bool:
-        """Whether a parameter must be written."""
-        return parameter.required
+        return grammar.items(self.prose(grammar))
 
 
 def name_of(owner: Task | Skill) -> str:
@@ -208,6 +146,12 @@ def name_of(owner: Task | Skill) -> str:
 def written(value: float | Sequence[float]) -> str:
     """A number or position as plans write it."""
     return compact_json(plans.canonical_value(value))
+
+
+@functools.cache
+def key(name: str) -> str:
+    """A key with its colon."""
+    return compact_json(name) + ":"
 
 
 def none_of_texts(texts: Sequence[str]) -> str:
@@ -221,24 +165,6 @@ def none_of(terminals: Iterable[str]) -> str:
     return "".join(f" & ~{terminal}" for terminal in terminals)
 
 
-def one_of(grammar: Grammar, texts: Iterable[str]) -> Symbol:
-    """The terminal that matches one of the texts; None where there is none."""
-    options = list(dict.fromkeys(texts))
-    return grammar.terminal(" | ".join(map(literal, options))) if options else None
-
-
-def mission_opens() -> str:
-    """The text before the first task of a mission plan."""
-    return "{" + key(plans.MISSION_KEYS[0]) + "["
-
-
-def mission_closes(grammar: Grammar, values: Values) -> str:
-    """The expression behind the last task of a mission plan."""
-    texts = items(grammar, values.prose(grammar), MOST_TEXTS)
-    assumptions, constraints = (f",{key(name)}" for name in plans.MISSION_KEYS[1:])
-    return f"{literal(']' + assumptions)} {texts} {literal(constraints)} {texts} {literal('}')}"
-
-
 def prefix_free(names: Iterable[str]) -> bool:
     """Whether no name begins another and none needs an escape."""
     known = sorted(names)
@@ -246,55 +172,109 @@ def prefix_free(names: Iterable[str]) -> bool:
     return not any(begins) and all(patterns.quoted(name) == name for name in known)
 
 
-@functools.cache
-def key(name: str) -> str:
-    """A key with its colon."""
-    return compact_json(name) + ":"
+@dataclass(frozen=True)
+class Script:
+    """The grammars of an answer, each made from the text before it. One ends where nothing can
+    follow it, at a place where no token spans both sides: where a name begins or ends, since
+    tokenizers keep letters and signs apart.
 
+    `values` are those that may be written; without `logical`, anything may follow anything. An
+    answer has at most `most` entries.
+    """
 
-def items(grammar: Grammar, item: str | None, most: int) -> str:
-    """The rule of a list of at most `most` items; an empty one where there is no item."""
-    some = f'({item} ("," {item}){{0,{most - 1}}})?'
-    return grammar.rule(f'"[" {some} "]"' if item else literal("[]"))
+    vocabulary: Vocabulary
+    values: Values
+    logical: bool = True
+    most: int = 0
+    begins: ClassVar[str] = ""
+    """The text before the first entry."""
+    opens: ClassVar[str] = ""
+    """The text before a name."""
 
+    def opening(self, grammar: Grammar) -> str:
+        """The expression of an answer up to the first name, or of an empty one."""
+        raise NotImplementedError
 
-def corners(grammar: Grammar, position: str) -> str:
-    """The rule of a polygon."""
-    return grammar.rule(f'"[" {position} ("," {position}){{2,{MOST_CORNERS - 1}}} "]"')
+    def read(self, before: str) -> Self:
+        """The script behind the text `before` an entry."""
+        raise NotImplementedError
 
+    @property
+    def known(self) -> Sequence[Task | Skill]:
+        """What can be named next, whatever stands before."""
+        raise NotImplementedError
 
-def body(grammar: Grammar, owner: Task | Skill, script: Script) -> str | None:
-    """The rule of a task or skill behind its name; None where a needed value is missing."""
-    parameters = _parameters(grammar, owner, script)
-    if parameters is None:
-        return None
-    opens, closes = literal(f'",{key("parameters")}{{'), literal("}")
-    if isinstance(owner, Task):
-        closes = f"{literal(',' + key('task_prompt'))} {script.values.prose(grammar)} {closes}"
-    return grammar.rule(f"{opens} {parameters} {closes}")
+    def offers(self, grammar: Grammar, owner: Any) -> bool:
+        """Whether a task or skill may be named next."""
+        raise NotImplementedError
 
+    def ending(self, grammar: Grammar, owner: Any) -> str:
+        """The expression behind a task's or skill's parameters, up to the next name."""
+        raise NotImplementedError
 
-def possible(owner: Task | Skill, script: Script) -> bool:
-    """Whether the parameters of a task or skill can be written."""
-    needy = owner.require_any or any(script.needs(item, owner) for item in owner.parameters)
-    return not needy or _parameters(Grammar(), owner, script) is not None
+    def grammar(self, text: str) -> str | None:
+        """The grammar of what follows `text`, up to the next place where one ends; None where the
+        answer is complete.
+        """
+        grammar = Grammar()
+        if not text:
+            return grammar.text(self.opening(grammar))
+        before, _opens, name = text.rpartition(self.opens)
+        if '"' in name:
+            return None
+        here = self.read(before)
+        if name:
+            return here._entries([owner for owner in here.known if name_of(owner) == name], "")
+        # A vocabulary can be such that nothing fits; the schema alone holds then.
+        offered = [one for one in here.known if here.offers(grammar, one)] or list(here.known)
+        if prefix_free(map(name_of, here.known)):
+            return Grammar().text(" | ".join(literal(name_of(owner)) for owner in offered))
+        return here._entries(offered)
 
+    def _entries(self, owners: Sequence[Task | Skill], name: str | None = None) -> str:
+        """What stands behind the `name` of one of the owners, with their names where it is None."""
+        grammar, ways = Grammar(), []
+        for owner in owners:
+            schema = replace(self, values=Values(), logical=False)
+            entry = self.entry(grammar, owner) or schema.entry(grammar, owner)
+            named = literal(patterns.quoted(name_of(owner))) if name is None else name
+            ways.append(f"{named} {entry} {self.ending(grammar, owner)}")
+        return grammar.text(" | ".join(ways))
 
-def _parameters(grammar: Grammar, owner: Task | Skill, script: Script) -> str | None:
-    """The rule of an owner's parameters between their braces; None where none can be written."""
+    def entry(self, grammar: Grammar, owner: Task | Skill) -> Symbol:
+        """The rule of a task or skill behind its name; None where a needed value is missing."""
 
-    @functools.cache
-    def rest(index: int, comma: bool, satisfied: bool, context: Context) -> str | None:
-        if index == len(owner.parameters):
-            return literal("}") if satisfied else None
-        parameter, options = owner.parameters[index], []
-        opens = literal("," * comma + key(parameter.name))
-        for value, after in script.parameter(grammar, parameter, owner, context):
-            behind = rest(index + 1, True, satisfied or parameter.name in owner.require_any, after)
-            options += [f"{opens} {value} {behind}"] if behind else []
-        if not script.needs(parameter, owner):
-            behind = rest(index + 1, comma, satisfied, context)
-            options += [behind] if behind else []
-        return grammar.rule(" | ".join(options)) if options else None
+        @functools.cache
+        def rest(index: int, comma: bool, satisfied: bool, context: Context) -> Symbol:
+            if index == len(owner.parameters):
+                return literal("}") if satisfied else None
+            parameter, ways = owner.parameters[index], []
+            opens = literal("," * comma + key(parameter.name))
+            enough = satisfied or parameter.name in owner.require_any
+            for value, after in self.options(Slot(grammar, owner, parameter, context)):
+                behind = rest(index + 1, True, enough, after)
+                ways += [f"{opens} {value} {behind}"] if behind else []
+            if not self.needs(owner, parameter):
+                behind = rest(index + 1, comma, satisfied, context)
+                ways += [behind] if behind else []
+            return grammar.rule(" | ".join(ways)) if ways else None
 
-    return rest(0, False, not owner.require_any, frozenset())
+        parameters = rest(0, False, not owner.require_any, frozenset())
+        if parameters is None:
+            return None
+        opens, closes = literal(f'",{key("parameters")}{{'), literal("}")
+        if isinstance(owner, Task):
+            closes = f"{literal(',' + key('task_prompt'))} {self.values.prose(grammar)} {closes}"
+        return grammar.rule(f"{opens} {parameters} {closes}")
+
+    def options(self, slot: Slot, barred: Sequence[Any] | None = None) -> Options:
+        """The options of a parameter's value; None is `barred` where the logic says nothing."""
+        symbol = self.values.parameter(slot.grammar, slot.parameter, barred)
+        if not symbol and barred is None and slot.parameter.required:
+            # Without evidence of its kind, a value that must be written is the model's.
+            symbol = Values().parameter(slot.grammar, slot.parameter)
+        return [(symbol, slot.context)] if symbol else []
+
+    def needs(self, owner: Any, parameter: Parameter) -> bool:
+        """Whether a parameter must be written."""
+        return parameter.required

@@ -15,17 +15,16 @@ import itertools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from planner_ft.decoding.constraints import TOO_LONG, UNPAIRED, patterns
 from planner_ft.decoding.constraints import grammar as lark
-from planner_ft.decoding.constraints.grammar import Grammar, Options, Symbol, Values
+from planner_ft.decoding.constraints.grammar import Grammar, Symbol, Values
 from planner_ft.decoding.constraints.patterns import literal, quoted, regex
-from planner_ft.facts import corrections, read_input
+from planner_ft.facts import Input, corrections
 from planner_ft.facts.words import WORDS
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Parameter, Vocabulary
-from planner_ft.vocabulary.plans import STEP_KEYS, Level
+from planner_ft.vocabulary import Parameter
+from planner_ft.vocabulary.plans import STEP_KEYS, value_problem
 
 MOST_WORDS = 2000
 """Words of a command that spans are made of; compiling more takes longer than an answer."""
@@ -76,19 +75,16 @@ class Spans:
         """The terminal of a quoted span, none of `without`; None where no span is left."""
         barred = {quoted(text).lower() for text in without}
         alone = (form for piece in self._pieces if piece.ends for form in piece.forms)
-        if without and not any(form.lower() not in barred for form in alone):
+        if without and all(form.lower() in barred for form in alone):
             return None
         if self._latest[0] is not grammar:
             self._latest = grammar, self._span(grammar)
         span = self._latest[1]
-        return (
-            grammar.terminal(f"{span}{lark.none_of_texts(without)}") if span and without else span
-        )
+        return grammar.terminal(span + lark.none_of_texts(without)) if span and without else span
 
     def _span(self, grammar: Grammar) -> str | None:
         names: dict[int, str] = {}
-        for index in range(len(self._pieces) - 1, -1, -1):
-            piece = self._pieces[index]
+        for index, piece in reversed(list(enumerate(self._pieces))):
             after = ((gap, names[place]) for gap, place in piece.following if place in names)
             following = [f"{literal(gap)} {name}" for gap, name in after]
             if piece.forms and (following or piece.ends):
@@ -166,36 +162,30 @@ class GroundedValues(Values):
     coordinate of a destination can be any number.
     """
 
-    def __init__(
-        self, level: Level, record: dict[str, Any], vocabulary: Vocabulary, *, free_waypoints: bool
-    ) -> None:
-        self._vocabulary, self._level = vocabulary, level
-        known = record if level == "task" else {"prompt": record.get("prompt")}
-        self._source = source = read_input(known, vocabulary)
-        self._facts = facts = source.facts
-        self._spans = Spans([facts.text, *source.texts])
-        coordinates = [item for skill in vocabulary.skills for item in skill.coordinates]
+    def __init__(self, source: Input, *, free_waypoints: bool) -> None:
+        self._source, self._facts, self._vocabulary = source, source.facts, source.vocabulary
+        self._spans = Spans([source.facts.text, *source.texts])
+        self._sure = not (source.facts.unread or source.facts.loose)
+        coordinates = [item for skill in self._vocabulary.skills for item in skill.coordinates]
         self._numbers: dict[Parameter, list[str] | None] = {}
         self._numbers |= dict.fromkeys(coordinates if free_waypoints else ())
-        stated = [(round(place.x, 2), round(place.y, 2)) for place in facts.positions]
-        stated = [place for place in stated if max(map(abs, place)) < LARGEST]
-        self._places = list(dict.fromkeys([vocabulary.home, vocabulary.unresolved, *stated]))
-        worked = ((round(x, 2), round(y, 2)) for x, y in source.worked_places)
-        self._places += [place for place in worked if max(map(abs, place)) < LARGEST]
-        too_long = [TOO_LONG] if self._spans.too_long else []
-        self.notes = [*facts.unread, *([UNPAIRED] if facts.loose else []), *too_long]
+        stated = ((place.x, place.y) for place in source.facts.positions)
+        found = ((round(x, 2), round(y, 2)) for x, y in (*stated, *source.worked_places))
+        usable = (place for place in found if max(map(abs, place)) < LARGEST)
+        own = self._vocabulary.home, self._vocabulary.unresolved
+        self._places = list(dict.fromkeys([*own, *usable]))
+        self.notes = list(source.facts.unread)
+        self.notes += [UNPAIRED] if source.facts.loose else []
+        self.notes += [TOO_LONG] if self._spans.too_long else []
 
-    def parameter(self, grammar: Grammar, parameter: Parameter, context: lark.Context) -> Options:
-        found = super().parameter(grammar, parameter, context)
-        # Without evidence of its kind, a value that must be written is the model's.
-        return found or (Values().parameter(grammar, parameter, context) * parameter.required)
-
-    def number(self, grammar: Grammar, parameter: Parameter, without: lark.Numbers = ()) -> Symbol:
+    def number(
+        self, grammar: Grammar, parameter: Parameter, without: Sequence[float] = ()
+    ) -> Symbol:
         numbers = self._written_numbers(parameter)
         if numbers is None:
             return super().number(grammar, parameter, without)
         barred = {lark.written(number) for number in without}
-        return lark.one_of(grammar, (number for number in numbers if number not in barred))
+        return grammar.one_of(number for number in numbers if number not in barred)
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         numbers = self._written_numbers(parameter)
@@ -203,18 +193,17 @@ class GroundedValues(Values):
             return super().has_number(parameter, value)
         return lark.written(value) in numbers
 
-    def position(self, grammar: Grammar, without: lark.Positions = ()) -> Symbol:
-        barred = {tuple(other) for other in without}
-        if self._facts.unread or self._facts.loose:
+    def position(self, grammar: Grammar, without: Sequence[Sequence[float]] = ()) -> Symbol:
+        if not self._sure:
             return super().position(grammar, without)
         places: Iterable[tuple[float, ...]] = self._places
-        if self._level == "task":
+        if self._source.is_task:
             known = [place for place in self._places if place != self._vocabulary.unresolved]
             # "The box from (0, 0) to (40, 20)" has the corners in between.
             crossed = len(known) <= MOST_CROSSED
             places = itertools.product(*zip(*known, strict=True)) if crossed else known
-        allowed = (place for place in places if tuple(place) not in barred)
-        return lark.one_of(grammar, map(lark.written, allowed))
+        barred = set(map(tuple, without))
+        return grammar.one_of(lark.written(place) for place in places if place not in barred)
 
     def text(self, grammar: Grammar, without: Sequence[str] = ()) -> Symbol:
         if self._spans.too_long:
@@ -225,41 +214,35 @@ class GroundedValues(Values):
         return self.text(grammar)
 
     def prose(self, grammar: Grammar) -> str:
-        if self._facts.unread or self._facts.loose:
-            return super().prose(grammar)
-        return grammar.terminal(self._prose)
+        return grammar.terminal(self._prose) if self._sure else super().prose(grammar)
 
     def step_texts(self, grammar: Grammar, key: str) -> str:
         # Reports of a step are the vocabulary's own wording.
         known = {getattr(skill, REPORTS[key]) for skill in self._vocabulary.skills} - {None}
         if not known:
             return super().step_texts(grammar, key)
-        reports = lark.one_of(grammar, map(compact_json, sorted(known)))
-        return lark.items(grammar, reports, lark.MOST_TEXTS)
+        return grammar.items(grammar.one_of(map(compact_json, sorted(known))))
 
     def _written_numbers(self, parameter: Parameter) -> list[str] | None:
         """Texts of a parameter's number, smallest first; None where any number can be meant."""
         if parameter not in self._numbers and self._facts.unread:
             self._numbers[parameter] = None
         elif parameter not in self._numbers:
-            low, high, whole = parameter.minimum, parameter.maximum, parameter.type == "integer"
             values = (one for one in self._source.values(parameter) if abs(one) < LARGEST)
             found = sorted({round(value, digits) for value in values for digits in (2, 4)})
-            within = (one for one in found if low is None or high is None or low <= one <= high)
-            usable = (one for one in within if not whole or one == int(one))
-            self._numbers[parameter] = list(map(lark.written, usable))
+            fitting = (one for one in found if value_problem(one, parameter) is None)
+            self._numbers[parameter] = list(map(lark.written, fitting))
         return self._numbers[parameter]
 
     @functools.cached_property
     def _prose(self) -> str:
         """Sentences, with the numbers of the command and those of every value."""
         known = set(re.findall(r"\d+(?:\.\d+)?", self._facts.text))
-        numbers = [item for task in self._vocabulary.tasks for item in task.parameters]
-        for parameter in numbers:
+        for parameter in (item for task in self._vocabulary.tasks for item in task.parameters):
             if parameter.type in ("number", "integer"):
                 known |= {text.lstrip("-") for text in self._written_numbers(parameter) or ()}
                 said = (abs(number.said) for number in self._facts.numbers(parameter.unit))
-                known |= {lark.written(value) for value in said}
+                known |= set(map(lark.written, said))
         known |= {lark.written(abs(value)) for place in self._places for value in place}
         return prose(number for number in known if len(number) <= LONGEST_NUMBER)
 

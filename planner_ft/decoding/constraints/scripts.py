@@ -16,237 +16,209 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 from planner_ft.decoding.constraints import grammar as lark
-from planner_ft.decoding.constraints.grammar import Context, Grammar, Options, Script, key
+from planner_ft.decoding.constraints.grammar import Grammar, Options, Script, Slot, key
 from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.waypoints import Path, Waypoints
 from planner_ft.vocabulary import Parameter, Skill, Task
 from planner_ft.vocabulary.definition import Role
-from planner_ft.vocabulary.plans import STEP_KEYS, WORKING, without_working
+from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, WORKING
 from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 
 @dataclass(frozen=True)
 class MissionScript(Script):
-    """A mission plan: the titles that may follow, then what follows the `chosen` title."""
+    """A mission plan; `progress` is where it stands behind its tasks so far."""
 
-    opens: str = lark.TASK_OPENS
     most: int = lark.MOST_TASKS
     progress: Progress = START
+    begins: ClassVar[str] = "{" + key(MISSION_KEYS[0]) + "["
+    opens: ClassVar[str] = '{"title":"'
 
-    def opening(self) -> str:
-        grammar = Grammar()
-        opens, first = literal(lark.mission_opens()), literal(lark.TASK_OPENS)
-        return grammar.text(f"{opens} ({first} | {lark.mission_closes(grammar, self.values)})")
+    def opening(self, grammar: Grammar) -> str:
+        return f"{literal(self.begins)} ({literal(self.opens)} | {self._closes(grammar)})"
+
+    def read(self, before: str) -> MissionScript:
+        progress = START
+        for entry in json.loads(before.removesuffix(",") + "]}")[MISSION_KEYS[0]]:
+            task = self.vocabulary.task[entry["title"]]
+            progress = progress.after(task, entry["parameters"], self.vocabulary)
+        return replace(self, progress=progress)
 
     @property
     def known(self) -> Sequence[Task]:
         return self.vocabulary.tasks
 
-    def offers(self, owner: Task) -> bool:
+    def offers(self, grammar: Grammar, owner: Task) -> bool:
         fits = not self.logical or self.progress.offers(owner)
-        return fits and lark.possible(owner, self)
+        return fits and self.entry(grammar, owner) is not None
 
-    def read(self, text: str) -> MissionScript:
-        progress = self.progress
-        if self.written:
-            entry, _end = json.JSONDecoder().raw_decode(text)
-            task = self.vocabulary.task[entry["title"]]
-            progress = progress.after(task, entry["parameters"], self.vocabulary)
-        return replace(self, progress=progress, chosen=None, written=lark.TASK_OPENS)
+    def ending(self, grammar: Grammar, owner: Task) -> str:
+        more = f"{literal(',' + self.opens)} | " if self.progress.tasks + 1 < self.most else ""
+        return f"({more}{self._closes(grammar)})"
 
-    def behind(self, owners: Sequence[Task], *, names: bool) -> str:
-        grammar = Grammar()
-        entries = " | ".join(self.entry(grammar, task, named=not names) for task in owners)
-        more = f"{literal(',' + lark.TASK_OPENS)} | " if self.progress.tasks + 1 < self.most else ""
-        return grammar.text(f"({entries}) ({more}{lark.mission_closes(grammar, self.values)})")
+    def _closes(self, grammar: Grammar) -> str:
+        """What stands behind the last task."""
+        texts = grammar.items(self.values.prose(grammar))
+        assumptions, constraints = (f",{key(name)}" for name in MISSION_KEYS[1:])
+        return f"{literal(']' + assumptions)} {texts} {literal(constraints)} {texts} {literal('}')}"
 
     # ------------------------------------------------------------ what the tasks so far leave
 
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Task, context: Context
-    ) -> Options:
-        if self.logical and parameter.name == owner.position_parameter:
-            symbol = self._place(grammar, owner, identified=context >= lark.IDENTIFIED)
-        elif self._is_target(parameter, owner):
-            searched = [target for target in self.progress.searched if target]
-            symbol = self.values.text(grammar, searched)
-        else:
-            return super().parameter(grammar, parameter, owner, context)
-        return [(symbol, context)] if symbol else []
+    def options(self, slot: Slot, barred: Sequence[Any] | None = None) -> Options:
+        if self.logical and slot.parameter.name == slot.owner.position_parameter:
+            return [(symbol, slot.context)] if (symbol := self._place(slot)) else []
+        if self._tells(slot.owner, slot.parameter):
+            barred = [target for target in self.progress.searched if target]
+        identified = slot._replace(context=frozenset({"identified"}))
+        return super().options(identified if slot.parameter.type == "id" else slot, barred)
 
-    def needs(self, parameter: Parameter, owner: Task) -> bool:
+    def needs(self, owner: Task, parameter: Parameter) -> bool:
         # Two searches that name no target are the same search.
-        again = self._is_target(parameter, owner) and "" in self.progress.searched
-        return super().needs(parameter, owner) or again
+        again = self._tells(owner, parameter) and "" in self.progress.searched
+        return super().needs(owner, parameter) or again
 
-    def _is_target(self, parameter: Parameter, owner: Task) -> bool:
+    def _tells(self, owner: Task, parameter: Parameter) -> bool:
+        """Whether a parameter says what is searched."""
         search = self.logical and owner.title == self.vocabulary.locate
         return search and parameter == target_parameter(owner)
 
-    def _place(self, grammar: Grammar, task: Task, *, identified: bool) -> str | None:
+    def _place(self, slot: Slot) -> str | None:
         progress, unresolved, at = self.progress, self.vocabulary.unresolved, self.progress.here
-        unknown = not identified and (bool(progress.searched) or task.docks)
-        if task.arrival == "transit":
+        unknown = not slot.context and (bool(progress.searched) or slot.owner.docks)
+        if slot.owner.arrival == "transit":
             lost = at is None or (at == unresolved and not unknown)
             return None if at is None or lost else literal(lark.written(at))
         without = [] if unknown else [unresolved]
         # Two places that are not known yet look the same: behind a second search, unresolved can be
         # another place.
         same = at == unresolved and len(progress.searched) > 1
-        if task.title == self.vocabulary.transit and at and not (same or progress.moved):
+        if slot.owner.title == self.vocabulary.transit and at and not (same or progress.moved):
             without.append(at)
-        return self.values.position(grammar, without)
+        return self.values.position(slot.grammar, without)
 
 
 LONGEST_WORKING = 600
 """Characters of a working. The longest of 3,000 sampled tasks has 250."""
 SUMS = r"[xy0-9.+/=;\-]"
 """Signs of a working (data.task.working); its form is not enforced: wrong sums derive nothing."""
-STEP_OPENS = "{" + key(STEP_KEYS[0]) + lark.SKILL_OPENS
-FILTERS, PERCEPTIONS = (key(name) + "[" for name in STEP_KEYS[1:3])
-CLOSES = "]}"
+STEP = "{" + key(STEP_KEYS[0])
+LISTS: dict[Role, str] = {"filter": STEP_KEYS[1], "perception": STEP_KEYS[2]}
 MOST_ALIKE = 4
 """Uses of a skill in one step."""
 MOST_SAME, MOST_RUN = 12, 36
 """Equal steps in a row, and movements that go nowhere: a turn in 36 steps has 10 degrees each."""
 
-Step = tuple[Skill, Mapping[str, Any]]
-"""A skill and its parameters."""
-
 
 @dataclass(frozen=True)
 class TaskScript(Script):
-    """The parts of an answer: the names that may follow, then what stands behind the chosen name,
-    up to the next one.
+    """A skill sequence, skill by skill.
 
     `waypoints` are those that the facts give, None where any may be meant; a path of `whole` is not
-    left before its end. `steps` are the movements so far, with the one of the step that is being
-    written, `beside` the skills before the chosen one in its list.
+    left before its end. `steps` are those so far, with the one whose lists are being written;
+    `role` is that of the next skill, `working` what stands before the steps.
     """
 
-    opens: str = lark.SKILL_OPENS
     most: int = lark.MOST_STEPS
     waypoints: Waypoints | None = None
     whole: Waypoints | None = None
-    steps: tuple[Step, ...] = ()
+    steps: tuple[dict[str, Any], ...] = ()
     role: Role = "navigation"
-    beside: tuple[Step, ...] = ()
+    working: str = ""
+    begins: ClassVar[str] = "{" + key("skill_sequence") + "["
+    opens: ClassVar[str] = '{"name":"'
 
-    def opening(self) -> str:
-        grammar = Grammar()
+    def opening(self, grammar: Grammar) -> str:
         sums = grammar.terminal(regex(f'"{SUMS}{{1,{LONGEST_WORKING}}}"'))
-        opens = f'"{{" ({literal(key(WORKING))} {sums} ",")? {literal(key("skill_sequence") + "[")}'
-        return grammar.text(f"{opens} ({literal(STEP_OPENS)} | {literal(CLOSES)})")
+        working = f'({literal(key(WORKING))} {sums} ",")?'
+        ways = f"({literal(STEP + self.opens)} | {literal(']}')})"
+        return f'"{{" {working} {literal(self.begins[1:])} {ways}'
+
+    def read(self, before: str) -> TaskScript:
+        done, role = before.removesuffix(STEP), self.role
+        plan = json.loads(done.removesuffix(",") + ("]}]}" if done == before else "]}"))
+        if done == before:
+            role = "perception" if LISTS["perception"] in plan["skill_sequence"][-1] else "filter"
+        steps, working = tuple(plan["skill_sequence"]), plan.get(WORKING, "")
+        return replace(self, steps=steps, role=role, working=working)
 
     @property
     def known(self) -> Sequence[Skill]:
         return self.vocabulary.skills_in_role(self.role)
 
-    def read(self, text: str) -> TaskScript:
-        if not self.written:
-            shown = self.waypoints.shown(without_working(text)[1]) if self.waypoints else None
-            return replace(self, waypoints=shown, written=STEP_OPENS)
-        steps = self.steps
-        if self.role == "navigation":
-            begins = len(STEP_OPENS) - len(lark.SKILL_OPENS)
-            entry, _end = json.JSONDecoder().raw_decode(text, begins)
-            steps = (*steps, (self.vocabulary.skill[entry["name"]], entry["parameters"]))
-        ahead = replace(self, steps=steps, chosen=None)
-        if text.endswith(STEP_OPENS):
-            return replace(ahead, role="navigation", beside=(), written=STEP_OPENS)
-        role: Role = "perception" if PERCEPTIONS in text else "filter"
-        step = json.loads(text.removesuffix(lark.SKILL_OPENS).removesuffix(",") + "]}")
-        known, listed = self.vocabulary.skill, step[f"{role}_skills"]
-        beside = tuple((known[one["name"]], one["parameters"]) for one in listed)
-        return replace(ahead, role=role, beside=beside, written=text)
-
-    def offers(self, owner: Skill) -> bool:
+    def offers(self, grammar: Grammar, owner: Skill) -> bool:
         if self.logical and self.role == "navigation":
-            latest = self.steps[-MOST_SAME:]
-            same = len(latest) == MOST_SAME and all(step == latest[0] for step in latest)
-            run = [step[0] for step in self.steps[-MOST_RUN:]]
-            long = not owner.coordinates and run.count(owner) == MOST_RUN
-            return not ((same and latest[0][0] == owner) or long)
+            moves = [step[STEP_KEYS[0]] for step in self.steps]
+            latest, run = moves[-MOST_SAME:], [move["name"] for move in moves[-MOST_RUN:]]
+            same = len(latest) == MOST_SAME and all(move == latest[0] for move in latest)
+            long = not owner.coordinates and run.count(owner.name) == MOST_RUN
+            return not ((same and latest[0]["name"] == owner.name) or long)
         used = self._used(owner)
-        if self.logical and used and not (all(used) and len(used) < MOST_ALIKE):
-            return False
-        return lark.possible(owner, self)
+        again = not self.logical or not used or (all(used) and len(used) < MOST_ALIKE)
+        return again and self.entry(grammar, owner) is not None
 
-    def behind(self, owners: Sequence[Skill], *, names: bool) -> str:
-        grammar, options = Grammar(), []
-        for skill in owners:
-            if self.role == "navigation":
-                going = bool(skill.coordinates)
-                ends = f"{literal(',' + FILTERS)} {self._list(grammar, 'filter', (), going)}"
-            else:
-                used = [other for other, _parameters in self.beside]
-                ends = self._list(grammar, self.role, (*used, skill))
-            options.append(f"{self.entry(grammar, skill, named=not names)} {ends}")
-        return grammar.text(" | ".join(options))
+    def ending(self, grammar: Grammar, owner: Skill) -> str:
+        used, moving = [*(one["name"] for one in self._beside), owner.name], self.role not in LISTS
+        behind = f"{literal(']')} {self._reports(grammar, owner if moving else None)}"
+        behind = self._list("perception", used if self.role == "perception" else [], behind)
+        if self.role == "perception":
+            return behind
+        behind = f"{literal('],' + key(LISTS['perception']) + '[')} {behind}"
+        behind = self._list("filter", [] if moving else used, behind)
+        return f"{literal(',' + key(LISTS['filter']) + '[')} {behind}" if moving else behind
 
-    def _list(
-        self, grammar: Grammar, role: Role, used: Sequence[Skill], going: bool = False
-    ) -> str:
-        """The next skill of a role's list behind those used, or what follows the list. `going`: a
-        waypoint is chosen in the same part.
-        """
-        if role == "filter":
-            perceptions = self._list(grammar, "perception", (), going)
-            behind = f"{literal('],' + PERCEPTIONS)} {perceptions}"
-        else:
-            count = len(self.steps) + (self.role == "navigation")
-            ways = [literal("," + STEP_OPENS)] if count < self.most else []
-            if not (ways and self.whole and self.whole.unfinished(self._path, int(going))):
-                ways.append(literal(CLOSES))
-            keys, texts = STEP_KEYS[3:], self.values.step_texts
-            tail = (f"{literal(',' + key(name))} {texts(grammar, name)}" for name in keys)
-            reports = grammar.rule(f"{' '.join(tail)} {literal('}')}")
-            behind = f"{literal(']')} {reports} ({' | '.join(ways)})"
+    def _list(self, role: Role, used: Sequence[str], behind: str) -> str:
+        """The next skill of a role's list after those used, or what stands `behind` the list."""
         more = len(used) < lark.MOST_SKILLS and any(
-            not (self.logical and skill in used)
-            or (skill.parameters and used.count(skill) < MOST_ALIKE)
+            not (self.logical and skill.name in used)
+            or (skill.parameters and used.count(skill.name) < MOST_ALIKE)
             for skill in self.vocabulary.skills_in_role(role)
         )
-        return f"({literal(',' * bool(used) + lark.SKILL_OPENS)} | {behind})" if more else behind
+        return f"({literal(',' * bool(used) + self.opens)} | {behind})" if more else behind
+
+    def _reports(self, grammar: Grammar, move: Skill | None) -> str:
+        """The rest of a step, with a `move` whose values are written in the same part, and the way
+        to the next one or the end.
+        """
+        keys, texts = STEP_KEYS[3:], self.values.step_texts
+        tail = (f"{literal(',' + key(name))} {texts(grammar, name)} " for name in keys)
+        rest = grammar.rule("".join(tail) + literal("}"))
+        another = len(self.steps) + bool(move) < self.most
+        ways = [literal("," + STEP + self.opens)] if another else []
+        going = int(bool(move and move.coordinates))
+        if not (another and self.whole and self.whole.unfinished(self._path, going)):
+            ways.append(literal("]}"))
+        return f"{rest} ({' | '.join(ways)})"
 
     # ------------------------------------------------------------ what the steps so far leave
 
-    def parameter(
-        self, grammar: Grammar, parameter: Parameter, owner: Skill, context: Context
-    ) -> Options:
-        """No unresolved place, for a destination one of the waypoints where there are any, and for
+    def options(self, slot: Slot, barred: Sequence[Any] | None = None) -> Options:
+        """No unresolved corner, for a destination one of the waypoints where there are any, and for
         a skill that was used in its step another value of the parameter that it was used with.
         """
-        kind = parameter.type
+        owner, parameter = slot.owner, slot.parameter
         if self.logical and parameter in owner.coordinates:
-            axis = owner.coordinates.index(parameter)
-            if self._columns:
-                return self._waypoint(grammar, axis, context)
-            return self._coordinate(grammar, parameter, axis, context)
-        if self.logical and kind == "polygon":
-            corner = self.values.position(grammar, (self.vocabulary.unresolved,))
-            symbol = lark.corners(grammar, corner) if corner else None
-        elif parameter == self._telling(owner) and kind in ("number", "integer", "text", "id"):
-            used = [one[parameter.name] for one in self._used(owner) if parameter.name in one]
-            if kind in ("text", "id"):
-                symbol = self.values.text(grammar, [str(value) for value in used])
-            else:
-                numbers = [value for value in used if isinstance(value, int | float)]
-                symbol = self.values.number(grammar, parameter, numbers)
-        else:
-            return super().parameter(grammar, parameter, owner, context)
-        return [(symbol, context)] if symbol else []
+            return self._coordinate(slot, owner.coordinates.index(parameter))
+        if self.logical and parameter.type == "polygon":
+            barred = (self.vocabulary.unresolved,)
+        elif parameter == self._telling(owner) and parameter.type not in ("texts", "position"):
+            barred = [one[parameter.name] for one in self._used(owner) if parameter.name in one]
+        return super().options(slot, barred)
 
-    def needs(self, parameter: Parameter, owner: Skill) -> bool:
-        return super().needs(parameter, owner) or parameter == self._telling(owner)
+    def needs(self, owner: Skill, parameter: Parameter) -> bool:
+        return super().needs(owner, parameter) or parameter == self._telling(owner)
 
-    def _used(self, skill: Skill) -> list[Mapping[str, Any]]:
-        return [parameters for other, parameters in self.beside if other == skill]
+    @property
+    def _beside(self) -> list[dict[str, Any]]:
+        """The skills before the next one in its list."""
+        return self.steps[-1][LISTS[self.role]] if self.role in LISTS else []
+
+    def _used(self, skill: Skill) -> list[dict[str, Any]]:
+        return [one["parameters"] for one in self._beside if one["name"] == skill.name]
 
     def _telling(self, owner: Skill) -> Parameter | None:
         """The parameter that tells one use of a skill from the other."""
@@ -256,34 +228,34 @@ class TaskScript(Script):
     @property
     def _path(self) -> Path:
         """The waypoints so far."""
-        pairs = ((skill.coordinates, values) for skill, values in self.steps if skill.coordinates)
-        return tuple((values[x.name], values[y.name]) for (x, y), values in pairs)
+        moves = (step[STEP_KEYS[0]] for step in self.steps)
+        known = (
+            (self.vocabulary.skill[one["name"]].coordinates, one["parameters"]) for one in moves
+        )
+        return tuple((values[xy[0].name], values[xy[1].name]) for xy, values in known if xy)
 
     @functools.cached_property
     def _columns(self) -> dict[str, list[str]]:
         """The waypoints that may follow: y by x, as they are written."""
         columns: dict[str, list[str]] = {}
-        for point in self.waypoints.following(self._path) if self.waypoints else ():
-            x, y = map(lark.written, point)
-            columns.setdefault(x, []).append(y)
+        known = self.waypoints.following(self._path, self.working) if self.waypoints else ()
+        for x, y in known:
+            columns.setdefault(lark.written(x), []).append(lark.written(y))
         return columns
 
-    def _waypoint(self, grammar: Grammar, axis: int, context: Context) -> Options:
-        """A coordinate of one of the points."""
-        if axis == 0:
-            return [(literal(x), context | {f"x {x}"}) for x in self._columns]
-        column = next(mark for mark in context if mark.startswith("x "))
-        symbol = lark.one_of(grammar, self._columns[column[2:]])
-        return [(symbol, context - {column})] if symbol else []
-
-    def _coordinate(
-        self, grammar: Grammar, parameter: Parameter, axis: int, context: Context
-    ) -> Options:
-        """A coordinate of any place but the unresolved one."""
-        value, suspect = self.vocabulary.unresolved[axis], frozenset({"unresolved"})
-        without = () if axis == 1 and not context >= suspect else (value,)
-        symbol = self.values.number(grammar, parameter, without)
-        options = [(symbol, context)] if symbol else []
-        if axis == 0 and self.values.has_number(parameter, value):
-            options.append((literal(lark.written(value)), context | suspect))
+    def _coordinate(self, slot: Slot, axis: int) -> Options:
+        """A coordinate of one of the waypoints where there are any, else of any place but the
+        unresolved one. The context of y is the x of several that was chosen.
+        """
+        unresolved, columns = self.vocabulary.unresolved[axis], self._columns
+        if columns and axis == 0:
+            return [(literal(x), frozenset({x})) for x in columns]
+        if columns:
+            symbol = slot.grammar.one_of(columns[next(iter(slot.context))])
+            return [(symbol, frozenset())] if symbol else []
+        barred = () if axis == 1 and not slot.context else (unresolved,)
+        symbol = self.values.number(slot.grammar, slot.parameter, barred)
+        options: Options = [(symbol, frozenset())] if symbol else []
+        if axis == 0 and self.values.has_number(slot.parameter, unresolved):
+            options.append((literal(x := lark.written(unresolved)), frozenset({x})))
         return options

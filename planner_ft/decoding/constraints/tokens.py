@@ -6,6 +6,7 @@ import copy
 import functools
 import itertools
 from bisect import bisect_right
+from collections.abc import Iterable
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from planner_ft.decoding.constraints import Mask
+from planner_ft.decoding.constraints.grammar import Script
 from planner_ft.support.errors import PlannerError
 
 if TYPE_CHECKING:
@@ -51,10 +53,10 @@ class Tokens:
     def _by_bytes(self) -> list[tuple[bytes, int]]:
         """Ordinary tokens with their bytes, in the order of these."""
         every, special = range(self.engine.vocab_size), self.engine.is_special_token
-        found = {self.bytes_of(token): token for token in every if not special(token)}
+        found = {self.text_of([token]): token for token in every if not special(token)}
         return sorted(found.items())
 
-    def mask_of(self, ids: tuple[int, ...]) -> Mask:
+    def mask_of(self, ids: Iterable[int]) -> Mask:
         """The mask that allows these tokens and no others."""
         words = np.zeros(-(-self.n_vocab // 32), dtype=np.uint32)
         for token in ids:
@@ -64,10 +66,6 @@ class Tokens:
     def text_of(self, ids: list[int]) -> bytes:
         """What tokens add to the answer."""
         return bytes(self.engine.decode_bytes(ids))
-
-    def bytes_of(self, token: int) -> bytes:
-        """What a token adds to the answer."""
-        return self.text_of([token])
 
     def spelt(self, before: list[int], matcher: LLMatcher) -> list[int]:
         """The tokens that a text which must follow is probably spelt with behind the tokens
@@ -80,7 +78,7 @@ class Tokens:
             following = ([*ids[:count], longer] for longer in self._longer(text[place:]))
             if any(matcher.validate_tokens(tokens) == count + 1 for tokens in following):
                 return ids[:count]
-            place += len(self.bytes_of(token))
+            place += len(self.text_of([token]))
         return ids
 
     def growing(self, before: list[int], matcher: LLMatcher) -> list[int]:
@@ -113,9 +111,10 @@ class Tokens:
         behind = itertools.islice(self._by_bytes, first, None)
         return [one for _, one in itertools.takewhile(lambda one: one[0].startswith(text), behind)]
 
-    def compile(self, grammar: str) -> LLMatcher:
-        """A matcher at the beginning of a grammar."""
-        return _compiled(self.engine, grammar).deep_copy()
+    def matcher(self, script: Script, ids: list[int]) -> LLMatcher | None:
+        """A matcher of what a script lets follow the answer `ids`; None where that is complete."""
+        grammar = script.grammar(self.text_of(ids).decode())
+        return _compiled(self.engine, grammar).deep_copy() if grammar else None
 
 
 def allows(mask: Mask, token: int | None) -> bool:
@@ -128,24 +127,19 @@ def tokens_of(tokenizer: Any, end_ids: tuple[int, ...], n_vocab: int | None = No
     """The (kept) tokens of a tokenizer. Raises PlannerError for a slow one."""
     from llguidance import LLTokenizer
 
-    width = max(n_vocab or 0, len(tokenizer))
+    width, end = max(n_vocab or 0, len(tokenizer)), list(end_ids)
     slices = [*TEXT_SLICES, *LLTokenizer.general_slices()]
     try:
-        engine = LLTokenizer(_definition(tokenizer), width, eos_token=list(end_ids), slices=slices)
-        return Tokens(engine, width, end_ids)
+        if not hasattr(tokenizer, "backend_tokenizer"):
+            raise ValueError("only fast tokenizers are supported")
+        backend = copy.copy(tokenizer.backend_tokenizer)
+        backend.no_padding()
+        backend.no_truncation()
+        engine = LLTokenizer(str(backend.to_str()), width, eos_token=end, slices=slices)
     except ValueError as error:
         way = "decode at strength free, or give a candidate with tokenizer.json"
         raise PlannerError(f"the tokenizer cannot be constrained ({error}); {way}") from error
-
-
-def _definition(tokenizer: Any) -> str:
-    """The tokenizer.json, without padding and truncation. Raises ValueError for slow tokenizers."""
-    if not hasattr(tokenizer, "backend_tokenizer"):
-        raise ValueError("only fast tokenizers are supported")
-    backend = copy.copy(tokenizer.backend_tokenizer)
-    backend.no_padding()
-    backend.no_truncation()
-    return str(backend.to_str())
+    return Tokens(engine, width, end_ids)
 
 
 @functools.lru_cache(maxsize=GRAMMARS)

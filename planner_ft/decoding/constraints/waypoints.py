@@ -11,7 +11,7 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -38,35 +38,21 @@ GRID = re.compile(r"\b(?:grid|lawn-?mow|lanes?|lines?|legs|runs|transect|strip|p
 
 @dataclass(frozen=True)
 class Waypoints:
-    """What waypoints are derived from, and the paths that it gives. `worked` are coordinates by
-    axis that the answer's scratchpad derives; a path counts as begun with `begun` of its waypoints
-    in a row. `whole`: the task is one path of stated size, and is not done before its end.
+    """What waypoints are derived from, and the paths that it gives. A path counts as begun with
+    `begun` of its waypoints in a row. `whole`: the task is one path of stated size, and is not done
+    before its end.
     """
 
     ground: Ground
     paths: tuple[Path, ...]
     begun: int = BEGUN
-    worked: tuple[frozenset[float], frozenset[float]] = (frozenset(), frozenset())
     whole: bool = False
 
-    def shown(self, working: str) -> Waypoints:
-        """These with the coordinates of right sums of a working (data.task.working)."""
-        found = tuple({place[axis] for place in self.ground.places} for axis in (0, 1))
-        lengths = set(self.ground.lengths)
-        for axis, base, sign, away, result in SUM.findall(working):
-            one, other, value = float(base), float(away), float(result)
-            known = found["xy".index(axis)] if axis else set()
-            moved = one + (other if sign == "+" else -other)
-            if sign == "/" and one in lengths and other and abs(one / other - value) <= ROUNDING:
-                lengths.add(value)
-            elif one in known and other in lengths and abs(moved - value) <= ROUNDING:
-                known.add(g.tidy(value))
-        return replace(self, worked=(frozenset(found[0]), frozenset(found[1]))) if working else self
-
-    def following(self, before: Path) -> list[Point]:
+    def following(self, before: Path, working: str = "") -> list[Point]:
         """The waypoints that may follow those `before`: the next one of a path that was begun, else
-        any that the facts give, but for the one where the vehicle is. Behind a path that is all of
-        its task follow only stated places, and a path anew: no further lane.
+        any that the facts or the sums of a `working` give, but for the one where the vehicle is.
+        Behind a path that is all of its task follow only stated places, and a path anew: no further
+        lane.
         """
         begun, ground = self._begun(before), self.ground
         onward = dict.fromkeys(path[done] for path, done in begun if done < len(path))
@@ -77,7 +63,7 @@ class Waypoints:
             anew = dict.fromkeys((*ground.places, *self._starts))
             return [point for point in anew if point not in before[-1:]]
         away = ground.away(dict.fromkeys((*before[-1:], *ground.places)))
-        stated, worked = (*ground.places, *before, *self._starts), itertools.product(*self.worked)
+        stated, worked = (*ground.places, *before, *self._starts), self._worked(working)
         options = dict.fromkeys(itertools.chain(stated, onward, away, worked))
         return [point for point in options if point not in before[-1:]]
 
@@ -85,6 +71,21 @@ class Waypoints:
         """Whether a path that must be whole is incomplete after `before` and `more` waypoints."""
         begun = self._begun(before) if self.whole else []
         return bool(begun) and all(self.begun <= done < len(path) - more for path, done in begun)
+
+    def _worked(self, working: str) -> Iterable[Point]:
+        """The points that right sums of a working derive (data.task.working)."""
+        found = tuple({place[axis] for place in self.ground.places} for axis in (0, 1))
+        lengths = set(self.ground.lengths)
+        for axis, base, sign, away, result in SUM.findall(working):
+            one, other, value = float(base), float(away), float(result)
+            known = found["xy".index(axis)] if axis else set()
+            moved = one + (other if sign == "+" else -other)
+            if sign == "/" and one in lengths and other and abs(one / other - value) <= ROUNDING:
+                lengths.add(value)
+            elif one in known and other in lengths and abs(moved - value) <= ROUNDING:
+                known.add(g.tidy(value))
+        xs, ys = found if working else ((), ())
+        return itertools.product(xs, ys)
 
     def _begun(self, before: Path) -> list[tuple[Path, int]]:
         """The paths that begin with the last waypoints, with how many: those with the most."""
