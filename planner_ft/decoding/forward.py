@@ -53,6 +53,8 @@ ROPE: dict[str, set[str]] = {
 """Rotary positions that do not depend on the length of the text, and their settings."""
 Linear = tuple[Tensor, Tensor | None]
 """Weight (outputs, inputs) and bias."""
+Feeds = Sequence[Sequence[int]]
+"""The next tokens of each row of a batch."""
 
 
 def read_forms(
@@ -264,7 +266,7 @@ class SmallPasses:
         empty = torch.zeros(2, rows, 0, model.sizes.kv_heads, model.sizes.head_dim)
         self.memory = [empty for _layer in model.layers]
 
-    def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+    def run(self, feeds: Feeds, wanted: Sequence[int]) -> Tensor:
         counts = [len(feed) for feed in feeds]
         ends = [start + count for start, count in zip(self.lengths, counts, strict=True)]
         self._make_room(max(ends) + BLOCK)
@@ -306,11 +308,7 @@ class SmallPasses:
             self.angles = self.model.angles(room)
 
     def _run(
-        self,
-        rows: slice,
-        starts: Sequence[int],
-        feeds: Sequence[Sequence[int]],
-        wanted: Sequence[int],
+        self, rows: slice, starts: Sequence[int], feeds: Feeds, wanted: Sequence[int]
     ) -> Tensor:
         """The wanted logits of one row, or of all with at most BLOCK tokens each."""
         model = self.model

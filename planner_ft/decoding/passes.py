@@ -12,7 +12,7 @@ import torch
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
-from planner_ft.decoding.forward import SmallModel, begin_alike
+from planner_ft.decoding.forward import Feeds, SmallModel, begin_alike
 
 SHARED = 16
 """Tokens that prompts must share for a pass of their own: below, it costs more than it saves."""
@@ -56,7 +56,7 @@ class _ModelPasses:
         self.wide = rows == 1 and all(back)
         self.mask = torch.zeros(rows, 0, dtype=torch.long, device=self.device)
 
-    def run(self, feeds: Sequence[Sequence[int]], wanted: Sequence[int]) -> Tensor:
+    def run(self, feeds: Feeds, wanted: Sequence[int]) -> Tensor:
         """Feed each row its next tokens; return the logits after the last `wanted` of them (at
         least 1), row by row: (sum of wanted, tokens).
         """
@@ -77,7 +77,7 @@ class _ModelPasses:
         self.mask = self.mask[index]
         self.cache.batch_select_indices(index)
 
-    def _begin_together(self, feeds: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+    def _begin_together(self, feeds: Feeds) -> Feeds:
         """Compute all prompts' common beginning once; what is left of each, a token at least."""
         from transformers.cache_utils import DynamicLayer
 
@@ -90,7 +90,7 @@ class _ModelPasses:
         self.select([0] * len(feeds))
         return [feed[count:] for feed in feeds]
 
-    def _forward(self, feeds: Sequence[Sequence[int]], wanted: int) -> Tensor:
+    def _forward(self, feeds: Feeds, wanted: int) -> Tensor:
         """The last `wanted` logits of each row: (rows, wanted, tokens)."""
         rows = [torch.tensor(feed, device=self.device) for feed in feeds]
         left: dict[str, Any] = {"batch_first": True, "padding_side": "left"}

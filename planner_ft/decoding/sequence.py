@@ -231,7 +231,7 @@ class SequenceState:
             return best
         latest = {best, *self.ids[-LONGEST_RUN:]}
         token = constraint.ends_text() if len(latest) <= 2 and len(self.ids) > LONGEST_RUN else None
-        if token is None and constraint.admits([best]):
+        if token is None and constraint.allows(best):
             return best
         if token is None:
             # The most probable token of those allowed, even where logits are infinite or no numbers.
@@ -259,9 +259,9 @@ class SequenceState:
     def _propose(self) -> None:
         """Draft what may follow."""
         room = self.longest - len(self.ids) - 1 if self._wide and not self.finished else 0
-        constraint, draft = self.constraint, list[int]()
-        if constraint is not None and self.method.fast_forward:
-            draft = constraint.expected()[: min(LONGEST_FORCED, room)]
+        self.draft = []
+        if self.constraint is not None and self.method.fast_forward:
+            self.draft = self.constraint.expected()[: min(LONGEST_FORCED, room)]
         if self.lookup is not None:
-            draft += self.lookup.propose(min(LONGEST_DRAFT, room) - len(draft), draft)
-        self.draft = draft[: constraint.admits(draft)] if constraint and draft else draft
+            count = min(LONGEST_DRAFT, room) - len(self.draft)
+            self.draft += self.lookup.propose(count, self.draft)

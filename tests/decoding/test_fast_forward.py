@@ -66,14 +66,8 @@ class Toy:
         elif not self.ended:
             self.waiting = [20, 21, 22] if token == 11 else [30, 31, 32]
 
-    def admits(self, tokens: Sequence[int]) -> int:
-        ahead = Toy(0)
-        ahead.left, ahead.waiting = self.left, list(self.waiting)
-        for count, token in enumerate(tokens):
-            if token not in ahead.allowed():
-                return count
-            ahead.accept(token)
-        return len(tokens)
+    def allows(self, token: int) -> bool:
+        return token in self.allowed()
 
 
 class ToyFactory:

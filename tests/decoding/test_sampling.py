@@ -109,8 +109,8 @@ def test_forced_tokens_do_not_shift_the_random_numbers() -> None:
         def expected(self) -> list[int]:
             return [7] if self.count % 2 == 0 else []
 
-        def admits(self, tokens: list[int]) -> int:
-            return len(tokens)
+        def allows(self, token: int) -> bool:
+            return True
 
         def accept(self, token: int) -> None:
             self.count += 1

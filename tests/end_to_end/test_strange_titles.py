@@ -69,8 +69,9 @@ def check(path: Path) -> None:
             ids = tokenizer.encode(
                 answer_text("mission", record, vocabulary), add_special_tokens=False
             )
-            admitted = factory.start(record, 4096).admits(ids)
-            assert admitted == len(ids), (strength, record["prompt"])
+            constraint = factory.start(record, 4096)
+            for token in ids:
+                constraint.accept(token)
 
 
 @pytest.mark.parametrize("kind", STRANGE)

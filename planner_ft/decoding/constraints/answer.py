@@ -4,10 +4,9 @@ what starts it, for a strength.
 
 from __future__ import annotations
 
-import copy
 import functools
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -124,42 +123,26 @@ class Answer:
         self._released |= {name: None} if name else {}
         return True
 
+    def allows(self, token: int) -> bool:
+        """Whether a token may follow."""
+        if self._matcher is None:
+            return token in self._tokens.end_ids
+        if self._hurried:
+            return allows(self.mask(), token)
+        return self._matcher.validate_tokens([token]) == 1
+
     def accept(self, token: int) -> None:
         """A token was chosen. Raises ValueError when it is not allowed."""
-        if self._matcher is None:
-            if token not in self._tokens.end_ids:
-                raise ValueError(f"token {token} follows a complete answer")
-            return
-        barred = self._hurried and not allows(self.mask(), token)
-        if barred or not (
-            self._matcher.validate_tokens([token]) and self._matcher.consume_token(token)
-        ):
+        if not self.allows(token):
+            where = "behind a complete answer" if self._matcher is None else "here"
             said = self._tokens.text_of([token])
-            raise ValueError(f"token {token} ({said!r}) is not allowed here")
-        self._ids.append(token)
-        self._left -= 1
-        if self._matcher.is_accepting():
-            self._advance()
-
-    def admits(self, tokens: Sequence[int]) -> int:
-        """How many of these tokens in a row are allowed from here. The state is unchanged."""
-        room = max(self._left - self._reserve - 1, 0)
-        within = self._matcher.validate_tokens(list(tokens[:room])) if self._matcher else 0
-        if within == len(tokens):
-            return within
-        # Behind the end of this grammar, or near the limit: step by step, on a copy.
-        ahead = copy.copy(self)
-        ahead._matcher = self._matcher and self._matcher.deep_copy()
-        ahead._mask, ahead._ids = self._tokens.mask_of(()), list(self._ids)
-        for count, token in enumerate(tokens):
-            ended = ahead.ended
-            try:
-                ahead.accept(token)
-            except ValueError:
-                return count
-            if ended:
-                return count + 1
-        return len(tokens)
+            raise ValueError(f"token {token} ({said!r}) is not allowed {where}")
+        if self._matcher is not None:
+            self._matcher.consume_token(token)
+            self._ids.append(token)
+            self._left -= 1
+            if self._matcher.is_accepting():
+                self._advance()
 
     @property
     def _text(self) -> bytes:

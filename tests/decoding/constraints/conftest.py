@@ -76,6 +76,15 @@ def make_factory(
     return factory
 
 
+def taken(constraint: Answer, ids: list[int]) -> int:
+    """How many tokens in a row a constraint takes."""
+    for count, token in enumerate(ids):
+        if not constraint.allows(token):
+            return count
+        constraint.accept(token)
+    return len(ids)
+
+
 def allowed(mask: Mask) -> list[int]:
     return np.flatnonzero(np.unpackbits(mask.view(np.uint8), bitorder="little")).tolist()
 

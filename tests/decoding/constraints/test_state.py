@@ -17,7 +17,7 @@ from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import build_vocabulary
 from planner_ft.vocabulary.plans import LEVELS, Level, plan_problems
 
-from .conftest import LIMITS, answer_ids, decoded, make_factory, random_answer
+from .conftest import LIMITS, answer_ids, decoded, make_factory, random_answer, taken
 from .test_schema import CURATED
 
 Entry = tuple[str, dict[str, Any]]
@@ -52,7 +52,7 @@ def admitted(
 ) -> bool:
     factory = make_factory(tokenizer, "mission", vocabulary or load_vocabulary(), strength)
     ids = answer_ids(tokenizer, text_of(entries))
-    return factory.start({"prompt": prompt}).admits(ids) == len(ids)
+    return taken(factory.start({"prompt": prompt}), ids) == len(ids)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_every_right_plan_can_be_written(tokenizer: Any, level: Level) -> None:
         if level == "mission" and rule_problems(record["expected"], vocabulary):
             continue
         ids = answer_ids(tokenizer, answer_text(level, record, vocabulary))
-        assert factory.start(record, 4096).admits(ids) == len(ids), record["prompt"]
+        assert taken(factory.start(record, 4096), ids) == len(ids), record["prompt"]
 
 
 @pytest.mark.parametrize("name", ["usv", "inspection_drone"])
@@ -154,9 +154,8 @@ def test_a_skill_sequence_goes_nowhere_unresolved_unless_its_task_does(embedded:
             embedded,
             f'{{"skill_sequence":[{{"navigation_skill":{{"name":"GoToXY","parameters":{{"x":{x},"y":{y}}}}}',
         )
-        return factory.start({"task": "Transit", "prompt": "go", "parameters": parameters}).admits(
-            ids
-        ) == len(ids)
+        record = {"task": "Transit", "prompt": "go", "parameters": parameters}
+        return taken(factory.start(record), ids) == len(ids)
 
     assert goes(-99, 5)
     assert goes(5, -99)
