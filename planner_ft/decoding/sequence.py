@@ -178,22 +178,18 @@ class SequenceState:
         self.constraint = rules.start(query.record, longest, most) if rules else None
         self.lookup = Lookup(query.prompt, base=base) if base else None
         self.numbers = sampling.numbers(query.name, longest) if sampling else ()
-        self._enough, self._wide = enough, True
-        self.ids, self.forward_passes = list[int](), 0
+        self._enough, self.ids, self.forward_passes = enough, list[int](), 0
         self.scores: list[Score | None] = [None] * len(begun)
         self.finished: FinishReason | None = None
         self.diverged: int | None = None
         for token in begun:
             self._add(token)
         self.pending = [*query.prompt, *begun]
-        self._propose()
 
     def feed(self, *, wide: bool) -> tuple[list[int], int]:
         """The tokens to feed, and how many logits; no draft where not `wide`."""
         self.forward_passes += 1
-        self._wide = wide
-        if not wide:
-            self.draft.clear()
+        self.draft = self._likely() if wide else []
         return self.pending + self.draft, 1 + len(self.draft)
 
     def choose(self, best: Sequence[int], logits: Tensor) -> list[int]:
@@ -213,7 +209,6 @@ class SequenceState:
         self.pending = decided[-1:]
         if not self.finished and self._enough(self.ids):
             self.finished = "stop"
-        self._propose()
         return decided
 
     def rate(self, scored: Iterable[Score]) -> None:
@@ -256,12 +251,11 @@ class SequenceState:
         if self.lookup is not None:
             self.lookup.extend(token)
 
-    def _propose(self) -> None:
-        """Draft what may follow."""
-        room = self.longest - len(self.ids) - 1 if self._wide and not self.finished else 0
-        self.draft = []
+    def _likely(self) -> list[int]:
+        """Tokens that may follow those that are pending."""
+        room, draft = self.longest - len(self.ids) - 1, list[int]()
         if self.constraint is not None and self.method.fast_forward:
-            self.draft = self.constraint.expected()[: min(LONGEST_FORCED, room)]
+            draft = self.constraint.expected()[: min(LONGEST_FORCED, room)]
         if self.lookup is not None:
-            count = min(LONGEST_DRAFT, room) - len(self.draft)
-            self.draft += self.lookup.propose(count, self.draft)
+            draft += self.lookup.propose(min(LONGEST_DRAFT, room) - len(draft), draft)
+        return draft

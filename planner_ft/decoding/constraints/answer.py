@@ -245,8 +245,8 @@ class Factory:
         goes = [script.opens + one.name for one in self.vocabulary.skills if one.coordinates]
         # The lanes of a grid follow from the task's own parameters: the model is not left to write
         # others.
-        loose = replace(script, waypoints=known if known and known.whole else None, whole=known)
-        script = replace(loose, values=values, waypoints=known)
+        loose = replace(script, waypoints=known if known and known.whole else None)
+        script = replace(script, values=values, waypoints=known)
 
         def notes(text: str) -> list[str]:
             return [*values.notes, *(free if any(name in text for name in goes) else [])]

@@ -224,21 +224,22 @@ class Script:
             return None
         here = self.read(before)
         if name:
-            return here._entries([owner for owner in here.known if name_of(owner) == name], "")
+            named = [owner for owner in here.known if name_of(owner) == name]
+            return here._entries(named, named=True)
         # A vocabulary can be such that nothing fits; the schema alone holds then.
         offered = [one for one in here.known if here.offers(grammar, one)] or list(here.known)
         if prefix_free(map(name_of, here.known)):
             return Grammar().text(" | ".join(literal(name_of(owner)) for owner in offered))
-        return here._entries(offered)
+        return here._entries(offered, named=False)
 
-    def _entries(self, owners: Sequence[Task | Skill], name: str | None = None) -> str:
-        """What stands behind the `name` of one of the owners, with their names where it is None."""
+    def _entries(self, owners: Sequence[Task | Skill], *, named: bool) -> str:
+        """What stands behind the name of one of the owners, with it where it is not `named` yet."""
         grammar, ways = Grammar(), []
         for owner in owners:
             schema = replace(self, values=Values(), logical=False)
             entry = self.entry(grammar, owner) or schema.entry(grammar, owner)
-            named = literal(patterns.quoted(name_of(owner))) if name is None else name
-            ways.append(f"{named} {entry} {self.ending(grammar, owner)}")
+            name = "" if named else literal(patterns.quoted(name_of(owner)))
+            ways.append(f"{name} {entry} {self.ending(grammar, owner)}")
         return grammar.text(" | ".join(ways))
 
     def entry(self, grammar: Grammar, owner: Task | Skill) -> Symbol:

@@ -74,8 +74,9 @@ class MissionScript(Script):
             return [(symbol, slot.context)] if (symbol := self._place(slot)) else []
         if self._tells(slot.owner, slot.parameter):
             barred = [target for target in self.progress.searched if target]
-        identified = slot._replace(context=frozenset({"identified"}))
-        return super().options(identified if slot.parameter.type == "id" else slot, barred)
+        if slot.parameter.type == "id":
+            slot = slot._replace(context=frozenset({"identified"}))
+        return super().options(slot, barred)
 
     def needs(self, owner: Task, parameter: Parameter) -> bool:
         # Two searches that name no target are the same search.
@@ -118,14 +119,13 @@ MOST_SAME, MOST_RUN = 12, 36
 class TaskScript(Script):
     """A skill sequence, skill by skill.
 
-    `waypoints` are those that the facts give, None where any may be meant; a path of `whole` is not
-    left before its end. `steps` are those so far, with the one whose lists are being written;
-    `role` is that of the next skill, `working` what stands before the steps.
+    `waypoints` are those that the facts give, None where any may be meant. `steps` are those so
+    far, with the one whose lists are being written; `role` is that of the next skill, `working`
+    what stands before the steps.
     """
 
     most: int = lark.MOST_STEPS
     waypoints: Waypoints | None = None
-    whole: Waypoints | None = None
     steps: tuple[dict[str, Any], ...] = ()
     role: Role = "navigation"
     working: str = ""
@@ -162,14 +162,16 @@ class TaskScript(Script):
         return again and self.entry(grammar, owner) is not None
 
     def ending(self, grammar: Grammar, owner: Skill) -> str:
-        used, moving = [*(one["name"] for one in self._beside), owner.name], self.role not in LISTS
-        behind = f"{literal(']')} {self._reports(grammar, owner if moving else None)}"
-        behind = self._list("perception", used if self.role == "perception" else [], behind)
-        if self.role == "perception":
+        role, used = self.role, [*(one["name"] for one in self._beside), owner.name]
+        behind = f"{literal(']')} {self._reports(grammar, owner if role == 'navigation' else None)}"
+        behind = self._list("perception", used if role == "perception" else [], behind)
+        if role == "perception":
             return behind
         behind = f"{literal('],' + key(LISTS['perception']) + '[')} {behind}"
-        behind = self._list("filter", [] if moving else used, behind)
-        return f"{literal(',' + key(LISTS['filter']) + '[')} {behind}" if moving else behind
+        behind = self._list("filter", used if role == "filter" else [], behind)
+        return (
+            behind if role == "filter" else f"{literal(',' + key(LISTS['filter']) + '[')} {behind}"
+        )
 
     def _list(self, role: Role, used: Sequence[str], behind: str) -> str:
         """The next skill of a role's list after those used, or what stands `behind` the list."""
@@ -189,8 +191,8 @@ class TaskScript(Script):
         rest = grammar.rule("".join(tail) + literal("}"))
         another = len(self.steps) + bool(move) < self.most
         ways = [literal("," + STEP + self.opens)] if another else []
-        going = int(bool(move and move.coordinates))
-        if not (another and self.whole and self.whole.unfinished(self._path, going)):
+        going, known = int(bool(move and move.coordinates)), self.waypoints
+        if not (another and known and known.unfinished(self._path, going)):
             ways.append(literal("]}"))
         return f"{rest} ({' | '.join(ways)})"
 

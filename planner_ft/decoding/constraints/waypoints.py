@@ -59,13 +59,11 @@ class Waypoints:
         complete = any(done == len(path) for path, done in begun)
         if onward and not complete and begun[0][1] >= self.begun:
             return list(onward)
-        if complete and self.whole:
-            anew = dict.fromkeys((*ground.places, *self._starts))
-            return [point for point in anew if point not in before[-1:]]
-        away = ground.away(dict.fromkeys((*before[-1:], *ground.places)))
-        stated, worked = (*ground.places, *before, *self._starts), self._worked(working)
-        options = dict.fromkeys(itertools.chain(stated, onward, away, worked))
-        return [point for point in options if point not in before[-1:]]
+        options: Iterable[Point] = (*ground.places, *(path[0] for path in self.paths))
+        if not (complete and self.whole):
+            away = ground.away(dict.fromkeys((*before[-1:], *ground.places)))
+            options = itertools.chain(options, before, onward, away, self._worked(working))
+        return [point for point in dict.fromkeys(options) if point not in before[-1:]]
 
     def unfinished(self, before: Path, more: int = 0) -> bool:
         """Whether a path that must be whole is incomplete after `before` and `more` waypoints."""
@@ -93,10 +91,6 @@ class Waypoints:
         found = [(path, done) for path, done in passing if path[:done] == before[-done:]]
         most = max((done for _path, done in found), default=0)
         return [(path, done) for path, done in found if done == most]
-
-    @functools.cached_property
-    def _starts(self) -> list[Point]:
-        return list(dict.fromkeys(path[0] for path in self.paths))
 
     @functools.cached_property
     def _passing(self) -> dict[Point, list[tuple[Path, int]]]:
