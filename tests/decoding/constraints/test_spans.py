@@ -12,6 +12,8 @@ from planner_ft.support.files import compact_json
 
 
 def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, ...] = ()) -> bool:
+    from llguidance import LLMatcher
+
     from planner_ft.decoding.constraints.tokens import tokens_of
 
     grammar = Grammar()
@@ -19,7 +21,7 @@ def admitted(tokenizer: Any, texts: list[str], value: str, without: tuple[str, .
     if terminal is None:
         return False
     tokens = tokens_of(tokenizer, (tokenizer.eos_token_id,))
-    matcher = tokens.compile(grammar.text(f'{terminal} "!"'))
+    matcher = LLMatcher(tokens.engine, grammar.text(f'{terminal} "!"'))
     ids = tokens.engine.tokenize_bytes((compact_json(value) + "!").encode())
     return bool(matcher.validate_tokens(ids) == len(ids))
 
