@@ -14,7 +14,7 @@ import functools
 import itertools
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from planner_ft.decoding.constraints import TOO_LONG, UNPAIRED, patterns
 from planner_ft.decoding.constraints import grammar as lark
@@ -45,14 +45,13 @@ _INSIDE = frozenset("-‐–'’./&+_")
 _AROUND = re.compile(r""" ?[-–,"“”'’&/] ?|[,'’"”] ["“]?|, ["“]""")
 
 
-@dataclass
-class Piece:
+class Piece(NamedTuple):
     """A word: its forms in a value, and the next words as (gap, number of the word)."""
 
     forms: tuple[str, ...]
     begins: bool
     ends: bool
-    following: list[tuple[str, int]] = field(default_factory=list)
+    following: list[tuple[str, int]]
 
 
 class Spans:
@@ -101,24 +100,22 @@ class Spans:
 
     def _read(self, text: str) -> None:
         first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0
-        for match in matches:
-            word, before = match.group(), text[match.start() - 1 : match.start()]
+        gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
+        for number, match in enumerate(matches):
+            word, before = match[0], text[match.start() - 1 : match.start()]
+            after, more = gaps[number : number + 2], matches[number + 1 : number + 3]
             # In "camera A" and "cam_a" the letter is a name.
             plain = word.lower() in FUNCTION_WORDS and word != "A" and before not in ("_", "-", ".")
             run = run + 1 if plain else 0
-            begins = (before in QUOTES or not plain) and before != "_"
+            # "Region a, top left" has no article there.
+            letter = word.lower() == "a" and bool(after) and not after[0].isspace()
+            begins = letter or ((before in QUOTES or not plain) and before != "_")
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
-            self._pieces.append(Piece(self._forms(word), begins, ends))
-        for number, (one, two) in enumerate(itertools.pairwise(matches)):
-            gap = text[one.end() : two.start()]
-            if one.group().lower() == "a" and not gap.isspace():
-                # "Region a, top left" has no article there.
-                self._pieces[first + number].begins = self._pieces[first + number].ends = True
-            self._link(first + number, _written_gaps(gap, one.group()), first + number + 1)
-            possessive = gap in ("'", "’") and two.group().lower() == "s"
-            if possessive and number + 2 < len(matches):
-                gap = text[two.end() : matches[number + 2].start()]
-                self._link(first + number, _written_gaps(gap, "s"), first + number + 2)
+            following = [(gap, 1) for gap in _written_gaps(after[0], word)] if after else []
+            if after[1:] and after[0] in ("'", "’") and more[0][0].lower() == "s":
+                following += [(gap, 2) for gap in _written_gaps(after[1], "s")]
+            behind = [(quoted(gap), first + number + far) for gap, far in following]
+            self._pieces.append(Piece(self._forms(word), begins, letter or ends, behind))
 
     def _forms(self, word: str) -> tuple[str, ...]:
         """The ways to write a word in a value."""
@@ -130,9 +127,6 @@ class Spans:
         if self._loose and len(word) > 3 and word.endswith("s") and not word.endswith("ss"):
             forms.append(word[:-1])
         return tuple(map(quoted, dict.fromkeys(forms)))
-
-    def _link(self, place: int, gaps: list[str], following: int) -> None:
-        self._pieces[place].following += [(quoted(gap), following) for gap in gaps]
 
 
 def _written_gaps(gap: str, before: str) -> list[str]:

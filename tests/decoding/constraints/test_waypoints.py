@@ -117,9 +117,9 @@ def test_a_scratchpad_derives_coordinates_by_right_sums_alone() -> None:
     prompt = "Pass 12 m off one side and 20 m off the other."
     facts = waypoints("Transit", prompt, target_position=[33, -18])
     assert (45, 2) not in facts.following(())
-    assert (45, 2) in facts.shown("x33+12=45;y-18+20=2").following(())
-    assert (46, 2) not in facts.shown("x33+12=46;y-18+20=2").following(())
-    assert (47, 2) not in facts.shown("x33+14=47;y-18+20=2").following(())
+    assert (45, 2) in facts.following((), "x33+12=45;y-18+20=2")
+    assert (46, 2) not in facts.following((), "x33+12=46;y-18+20=2")
+    assert (47, 2) not in facts.following((), "x33+14=47;y-18+20=2")
 
 
 @pytest.mark.parametrize(
@@ -247,8 +247,7 @@ def test_grids_rings_and_points_of_other_tasks() -> None:
 def test_sums_of_a_scratchpad(working: str, point: tuple[float, float], derived: bool) -> None:
     prompt = "Pass 12 m off one side and 20 m off the other."
     facts = waypoints("Transit", prompt, target_position=[33, -18])
-    assert (point in facts.shown(working).following(())) is derived
-    assert facts.shown("") is facts
+    assert (point in facts.following((), working)) is derived
 
 
 def test_why_waypoints_are_the_models() -> None:
