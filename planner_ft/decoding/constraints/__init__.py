@@ -2,8 +2,8 @@
 strength.
 
 `answer.constraint_factory` compiles once per (tokenizer, level, vocabulary, strength); `start`
-gives the state of one answer, which the generation loop asks for a mask before each choice and
-tells every token that was chosen. What may be written as a value is in `grammar` (schema) and
+gives the state of one answer, which the generation loop asks what may follow and tells every
+token that was chosen. What may be written as a value is in `grammar` (schema) and
 `grounded`, what may follow what in `scripts`.
 """
 
