@@ -172,8 +172,7 @@ def read_places(path: Path, origin: Origin | None) -> dict[str, Position]:
     flag, places = f"--locate-file {path}", dict[str, Position]()
     content = _content(path, flag)
     local = _converter(content, origin, flag)
-    for number, feature in enumerate(_features(content), start=1):
-        geometry, properties = (feature.get(key) or {} for key in ("geometry", "properties"))
+    for number, (properties, geometry) in enumerate(_features(content), start=1):
         name = properties.get("name")
         if geometry.get("type") != "Point":
             continue
@@ -193,12 +192,13 @@ def read_area(path: Path, origin: Origin | None) -> list[Position]:
     flag = f"--area {path}"
     content = _content(path, flag)
     local = _converter(content, origin, flag)
-    shapes = [feature.get("geometry") or {} for feature in _features(content)]
+    shapes = [shape for _properties, shape in _features(content)]
     rings = [shape.get("coordinates") for shape in shapes if shape.get("type") == "Polygon"]
-    if len(rings) != 1 or not isinstance(rings[0], list) or len(rings[0]) != 1:
-        raise PlannerError(f"{flag}: must have one polygon without holes, and has {len(rings)}")
-    corners = [local(corner) for corner in rings[0][0]]
-    return corners[:-1] if corners[0] == corners[-1] else corners
+    match rings:
+        case [[[_, *_] as ring]]:
+            corners = [local(corner) for corner in ring]
+            return corners[:-1] if corners[0] == corners[-1] else corners
+    raise PlannerError(f"{flag}: must have one polygon without holes, and has {len(rings)}")
 
 
 def _content(path: Path, flag: str) -> dict[str, Any]:
@@ -210,9 +210,13 @@ def _content(path: Path, flag: str) -> dict[str, Any]:
     return value
 
 
-def _features(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _features(content: dict[str, Any]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+    """Properties and geometry of every feature, each {} where it is no object."""
     found = content.get("features") if content["type"] == "FeatureCollection" else [content]
-    yield from (item for item in found or () if isinstance(item, dict))
+    for item in found if isinstance(found, list) else ():
+        parts = (isinstance(item, dict) and item.get(key) for key in ("properties", "geometry"))
+        properties, geometry = (part if isinstance(part, dict) else {} for part in parts)
+        yield properties, geometry
 
 
 def _converter(

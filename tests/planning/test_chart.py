@@ -49,6 +49,14 @@ def test_wrong_files_are_refused_in_one_sentence(tmp_path: Path) -> None:
     broken = collection(tmp_path / "e.geojson", ("buoy", "Point", ["x", 54]))
     (tmp_path / "f.geojson").write_text("{")
     (tmp_path / "g.geojson").write_text("[]")
+    odd = tmp_path / "h.geojson"
+    feature = {"type": "Feature", "properties": 5, "geometry": {"type": "Point"}}
+    odd.write_text(json.dumps(feature))
+    (tmp_path / "i.geojson").write_text('{"type": "FeatureCollection", "features": 5}')
+    rings = [
+        collection(tmp_path / f"{number}.geojson", (None, "Polygon", ring))
+        for number, ring in enumerate(([], [5], [[]], None))
+    ]
     cases: list[tuple[Path, Origin | None, str]] = [
         (degrees, None, "--origin"),
         (nameless, KIEL, "name"),
@@ -57,13 +65,16 @@ def test_wrong_files_are_refused_in_one_sentence(tmp_path: Path) -> None:
         (broken, KIEL, "no coordinate"),
         (tmp_path / "f.geojson", KIEL, "JSON"),
         (tmp_path / "g.geojson", KIEL, "FeatureCollection"),
+        (odd, KIEL, "name"),
+        (tmp_path / "i.geojson", KIEL, "no points"),
         (tmp_path / "none.geojson", KIEL, "no such file"),
     ]
     for path, origin, words in cases:
         with pytest.raises(PlannerError, match=words):
             read_places(path, origin)
-    with pytest.raises(PlannerError, match="one polygon"):
-        read_area(degrees, KIEL)
+    for path in (degrees, *rings):
+        with pytest.raises(PlannerError, match="one polygon"):
+            read_area(path, KIEL)
 
 
 def test_a_chart_fills_what_fits_one_place() -> None:
