@@ -17,7 +17,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, decode_json, read_text
 from planner_ft.vocabulary import Vocabulary, plans
 from planner_ft.vocabulary.plans import LEVELS, STEP_KEYS, Level, list_key, plan_problems
-from planner_ft.vocabulary.schema import ELEMENTS
+from planner_ft.vocabulary.schema import ELEMENTS, FORMAT
 
 Kind = Literal["record", "prediction", "plan"]
 RECORD_KEYS = ("id", "family", "task", "parameters", "prompt", "expected", "spans", "tags")
@@ -120,6 +120,8 @@ def object_problems(
 ) -> tuple[Kind | None, Level | None, list[str]]:
     """Kind, level (`level`, if given) and problems of an object."""
     kind: Kind
+    if value.get("format") == FORMAT:
+        return None, level, ["a plan document, which `plannerft review FILE --show` checks"]
     if "expected" in value:
         kind, plan, key = "record", value["expected"], "expected: "
     elif "output" in value:

@@ -15,6 +15,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import write_jsonl
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import STEP_KEYS
+from planner_ft.vocabulary.schema import FORMAT
 
 ROOT = Path(__file__).parents[2]
 USV = load_vocabulary()
@@ -322,6 +323,8 @@ STEP: dict[str, Any] = {key: [] for key in STEP_KEYS[1:]}
         ({"id": "a", "output": goes((0, 0), (4, 5))}, [f"output: {AFTER_HOME}"]),
         ({"skill_sequence": [STEP | {"navigation_skill": 3}]},
          [f"skill_sequence[0].navigation_skill: {NO_OBJECT}"]),
+        (goes((4, 5)) | {"format": FORMAT},
+         ["a plan document, which `plannerft review FILE --show` checks"]),
         ({"output": goes()}, ["id is missing"]),
         ({"id": " ", "output": "Sure!"},
          ["id is no text", "output: not JSON (Expecting value at column 1)"]),
