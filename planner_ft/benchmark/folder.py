@@ -282,7 +282,7 @@ def _scores(path: Path) -> list[Line]:
     def problem_of(line: Any) -> str | None:
         if not _holds(line, id=str):
             return "no score of a sample (id is expected)"
-        key = line.get("candidate"), line.get("configuration"), line["id"], line.get("repeat")
+        key = tuple(str(line.get(one)) for one in ("candidate", "configuration", "id", "repeat"))
         if key in seen:
             return f"{key[0]} {key[1]} has a score of {line['id']!r} already"
         seen.add(key)

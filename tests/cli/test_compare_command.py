@@ -201,6 +201,9 @@ def test_what_is_no_run_is_one_sentence(tmp_path: Path, data: Path) -> None:
     path.write_text(path.read_text() + path.read_text().splitlines()[0] + "\n")
     with pytest.raises(PlannerError, match=r"scores\.jsonl:21: a base has a score of 's0' already"):
         invoke(good, broken)
+    path.write_text('{"id": "s0", "candidate": []}\n' * 2)
+    with pytest.raises(PlannerError, match=r"scores\.jsonl:2: .* has a score of 's0' already"):
+        invoke(good, broken)
     path.write_text('{"id": "s0"')
     with pytest.raises(PlannerError, match=r"scores\.jsonl:1: not JSON"):
         invoke(good, broken)
