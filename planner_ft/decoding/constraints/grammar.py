@@ -242,6 +242,11 @@ class Script:
             ways.append(f"{name} {entry} {self.ending(grammar, owner)}")
         return grammar.text(" | ".join(ways))
 
+    def possible(self, grammar: Grammar, owner: Task | Skill) -> bool:
+        """Whether the parameters of a task or skill can be written."""
+        needy = owner.require_any or any(self.needs(owner, item) for item in owner.parameters)
+        return not needy or self.entry(grammar, owner) is not None
+
     def entry(self, grammar: Grammar, owner: Task | Skill) -> Symbol:
         """The rule of a task or skill behind its name; None where a needed value is missing."""
 

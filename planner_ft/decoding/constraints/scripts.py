@@ -55,7 +55,7 @@ class MissionScript(Script):
 
     def offers(self, grammar: Grammar, owner: Task) -> bool:
         fits = not self.logical or self.progress.offers(owner)
-        return fits and self.entry(grammar, owner) is not None
+        return fits and self.possible(grammar, owner)
 
     def ending(self, grammar: Grammar, owner: Task) -> str:
         more = f"{literal(',' + self.opens)} | " if self.progress.tasks + 1 < self.most else ""
@@ -159,7 +159,7 @@ class TaskScript(Script):
             return not ((same and latest[0]["name"] == owner.name) or long)
         used = self._used(owner)
         again = not self.logical or not used or (all(used) and len(used) < MOST_ALIKE)
-        return again and self.entry(grammar, owner) is not None
+        return again and self.possible(grammar, owner)
 
     def ending(self, grammar: Grammar, owner: Skill) -> str:
         role, used = self.role, [*(one["name"] for one in self._beside), owner.name]
