@@ -26,8 +26,8 @@ _PLACED = re.compile(
     r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
 )
 _BESIDE = re.compile(
-    r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|lies?|lying|sits?|floats?|hangs?|rests?"
-    r"|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
+    r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|standing|lies?|lying|sits?|floats?|hangs?"
+    r"|rests?|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
     r"(?:in the \w+\s+)?(?:,?\s*namely\s+)?(?:at|near|around|in|on|by)\s*"
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )

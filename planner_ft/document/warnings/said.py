@@ -152,12 +152,10 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         bare = named or SIZES.search(before) or (AXIS.search(before) and not limits_it)
         replacing = case.words["replaced"]
         instead = clause and replacing.match(clause.text.strip(" ,"))
-        kinds = [replacing]
         last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
+        behind = _ends_with(replacing, before) or number in last_counted
         if last and number.value >= 2:
-            kinds.append(case.words["measured"])
-        ends = {match.end() for words in kinds for match in words.finditer(before)}
-        behind = len(before.rstrip(" :,")) in ends or number in last_counted
+            behind = behind or _ends_with(case.words["measured"], before)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if instead and number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)
@@ -223,7 +221,14 @@ def _is_kept(clause: Clause, case: Case) -> bool:
     inside = [one for one in case.positions if clause.start <= one.start < clause.end]
     numbers = [one for one in case.numbers if clause.start <= one.start < clause.end]
     apart = [n for n in numbers if not any(one.start <= n.start < one.end for one in inside)]
-    said = [n for n in apart if n.unit in ("m", "s", "m/s") or AXIS.search(text[: n.start])]
+    than = case.words["measured"]
+    said = [
+        one
+        for one in apart
+        if one.unit in ("m", "s", "m/s")
+        or AXIS.search(text[: one.start])
+        or (one.unit is None and _ends_with(than, text[clause.start : one.start]))
+    ]
     by_time = case.words["by_time"].search(clause.text)
     behind = clause.start + by_time.end() if by_time else len(text)
     if any(0 <= one.start - behind <= ARTICLE for one in (*numbers, *read_times(text))):
@@ -240,6 +245,12 @@ def _is_kept(clause: Clause, case: Case) -> bool:
     whole = case.words["whole_limit"].search(clause.text)
     known = plan.limited if whole else [*plan.limited, *plan.numbers]
     return all(any(near(one.value, other) for other in known) for one in said)
+
+
+def _ends_with(words: re.Pattern[str], text: str) -> bool:
+    """Whether a text ends with one of some words."""
+    rest = text.rstrip(" :,")
+    return any(match.end() == len(rest) for match in words.finditer(rest))
 
 
 def repeats(case: Case) -> Iterator[Warning]:

@@ -6,7 +6,17 @@ from typing import Any
 
 from planner_ft.document.warnings.asked import UNKNOWN
 from planner_ft.document.warnings.case import Case, Warning, quoted, warning
-from planner_ft.facts import SCORING, WAYPOINT, Evidence, Facts, Position, is_number, is_place, read
+from planner_ft.facts import (
+    SCORING,
+    WAYPOINT,
+    Evidence,
+    Facts,
+    Position,
+    is_number,
+    is_place,
+    near,
+    read,
+)
 from planner_ft.facts.inputs import read_input
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.words import edit_distance, unknown_words, words
@@ -47,6 +57,22 @@ def unsaid(case: Case) -> Iterator[Warning]:
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
                 yield warning("contradiction", "prompt", **about, words=words)
+
+
+def unsaid_limits(case: Case) -> Iterator[Warning]:
+    """Limits with a number that the command does not say, and that nothing be recorded where no
+    words of it rule anything out.
+    """
+    ruled_out = [case.words["exclusion"], case.words["limit"]]
+    ruled_out += [data.said for data in case.spoken.data if data.ruled_out]
+    none = not any(words.search(case.command) for words in ruled_out)
+    said = [number.value for number in case.numbers]
+    for limit in case.limits:
+        own = [value for value in limit["values"].values() if is_number(value)]
+        unsaid = any(not any(near(value, one) for one in said) for value in own)
+        if unsaid or (limit["kind"] == "no_recording" and none):
+            text = limit["text"].rstrip(".")
+            yield warning("value-not-said", "limit", about=text.casefold(), limit=text)
 
 
 def unheard(case: Case) -> Iterator[Warning]:
