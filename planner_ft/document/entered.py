@@ -3,6 +3,7 @@
 import functools
 import json
 import re
+from collections.abc import Iterator
 from typing import Any
 from unicodedata import category
 
@@ -13,6 +14,7 @@ from planner_ft.vocabulary.plans import canonical_value, is_number, value_proble
 from planner_ft.vocabulary.schema import task_schema
 
 POSITION = Parameter("position", "position", "m")
+LARGEST = 1e6  # of a value that is entered: a place within 1000 km, eleven days
 LONGEST_PROMPT, LONGEST_SHOWN = 4000, 120
 """Characters of a task prompt, and of a value that a sentence repeats."""
 
@@ -48,7 +50,18 @@ def checked(value: Any, known: Parameter) -> Any:
         raise PlannerError(f"{known.name}: {short(problem)}{unit}")
     for one in value if isinstance(value, list) else [value]:
         _visible(one if isinstance(one, str) else "")
+    if any(abs(number) > LARGEST for number in _numbers(value)):
+        unit = f" {known.unit}" if known.unit else ""
+        raise PlannerError(f"{known.name}: must be at most {LARGEST:,.0f}{unit} either way")
     return canonical_value(value)
+
+
+def _numbers(value: Any) -> Iterator[float]:
+    if is_number(value):
+        yield value
+    elif isinstance(value, list):
+        for item in value:
+            yield from _numbers(item)
 
 
 def prompt_text(text: Any) -> str:

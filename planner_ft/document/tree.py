@@ -252,7 +252,7 @@ def unchecked(
         which = "A constraint is" if len(words) == 1 else f"{len(words)} constraints are"
         yield f"{which} no limit that a program keeps: read the list of constraints."
     numbers = {task["id"]: number for number, task in enumerate(document["tasks"], start=1)}
-    if missing := [str(numbers[name]) for name in document["estimate"]["open"]]:
+    if missing := [str(numbers.get(name, name)) for name in document["estimate"]["open"]]:
         plural, which = "s" * (len(missing) > 1), ", ".join(missing)
         yield f"Length, time or way of task{plural} {which}: a part of it is not known."
     if known:

@@ -115,6 +115,7 @@ def test_words_before_a_position_are_not_all_things(command: str) -> None:
         "A boom reaches from 60,-30 to 60,30.",
         "There is a net between the two buoys at [60, -15] and [60, 15].",
         "Mind the breakwater, it runs from 50,0 to 70,0.",
+        "Mind the dolphin standing right in the middle at 60,0.",
     ],
 )
 def test_things_that_are_only_told_of_are_kept_clear_of(command: str) -> None:

@@ -198,6 +198,10 @@ def test_a_skill_can_be_set(plan: PlanDocument) -> None:
             "duration: 'long' is no number",
         ),
         (
+            {"kind": "parameter", "task": "t5", "name": "target_position", "value": [0, -1e308]},
+            "target_position: must be at most 1,000,000 m either way",
+        ),
+        (
             {"kind": "parameter", "task": "t5", "name": "target_position", "value": None},
             "t5: Transit needs target_position",
         ),

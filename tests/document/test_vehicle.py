@@ -37,7 +37,7 @@ def test_a_file_replaces_what_it_says(tmp_path: Path) -> None:
     [
         ("cruise_speed = 0", "cruise_speed = 0 must be a number above 0"),
         ("endurance = true", "endurance = True must be"),
-        ("turn_rate = inf", "turn_rate = inf must be"),
+        ("turn_rate = inf", "inf is no number"),
         ("speed = 3", "unknown key 'speed'"),
         ('name = ""', "name must be a text"),
         ("area = [[0, 0], [1, 1]]", "at least three positions"),

@@ -132,6 +132,12 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle the mast at 60,60. Double that to 20 m.", [orbit(360)], (), None),
         ("Go to 80,45. I meant minus 45.", [to(80, 45)], (), "value-lost"),
         ("Go to 80,45. I meant minus 45.", [to(80, -45)], (), None),
+        (
+            "Circle it at 15 m and come no nearer than thirty.",
+            [orbit(360)],
+            (),
+            "limit-lost value-lost",
+        ),
         ("Go to 9,9 and stay south of the line y = 150.", [to(9, 9)], (), "value-lost"),
         (
             "A tug at 1,9 is towing a barge at 9,9, do not pass between them.",

@@ -103,6 +103,27 @@ def test_a_long_text_that_nobody_said_is_cut_to_60_characters() -> None:
         assert found.count("x") == 60
 
 
+@pytest.mark.parametrize(
+    ("command", "limit", "count"),
+    [
+        ("Film the pier from casting off to coming home.", "Nothing is recorded.", 1),
+        ("Go there and record nothing.", "Nothing is recorded.", 0),
+        ("Go there, never over 4 knots.", "The vehicle goes no faster than 2.06 m/s.", 0),
+        ("Go there, never over 4 knots.", "The vehicle goes no faster than 5 m/s.", 1),
+    ],
+)
+def test_a_limit_is_one_of_the_command(command: str, limit: str, count: int) -> None:
+    plan = document([to(GO)], command=command, constraints=[limit])
+    assert len([one for one in texts(plan, "value-not-said") if "has the limit" in one]) == count
+
+
+def test_a_time_has_a_unit_that_is_said() -> None:
+    hold = [task("KeepStation", {"duration": 5}, [step("StationKeep", {"time": 5})])]
+    for command, count in (("Hold for five.", 1), ("Hold for five seconds.", 0)):
+        found = texts(document(hold, command=command), "value-not-said")
+        assert len([one for one in found if "no unit" in one]) == count
+
+
 def test_a_place_that_follows_is_named_only_where_a_value_is_lost() -> None:
     command = "Go to [30, 40], then 10 m further north{}."
     tasks = [
