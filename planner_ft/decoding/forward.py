@@ -86,12 +86,11 @@ def read_forms(
 def _is_supported(config: Mapping[str, Any]) -> bool:
     """Whether a config.json asks for nothing that this module does not compute."""
     rope = _rope(config)
-    kinds = config.get("layer_types") or ()
     return (
         config.get("model_type") in ("llama", "qwen2")
         and config.get("hidden_act") == "silu"
         and set(rope) == {"rope_type", "rope_theta"} | ROPE.get(rope["rope_type"], {"unknown"})
-        and all(kind == "full_attention" for kind in kinds)
+        and all(kind == "full_attention" for kind in config.get("layer_types") or ())
         and not config.get("use_sliding_window")
         and not config.get("quantization_config")
     )
@@ -261,16 +260,14 @@ class SmallPasses:
     wide = True
 
     def __init__(self, model: SmallModel, rows: int) -> None:
-        self.model = model
-        self.lengths = [0] * rows
+        self.model, self.lengths = model, [0] * rows
         empty = torch.zeros(2, rows, 0, model.sizes.kv_heads, model.sizes.head_dim)
         self.memory = [empty for _layer in model.layers]
 
     def run(self, feeds: Feeds, wanted: Sequence[int]) -> Tensor:
-        counts = [len(feed) for feed in feeds]
-        ends = [start + count for start, count in zip(self.lengths, counts, strict=True)]
+        ends = [start + len(feed) for start, feed in zip(self.lengths, feeds, strict=True)]
         self._make_room(max(ends) + BLOCK)
-        if len(feeds) > 1 and max(counts) <= BLOCK:
+        if len(feeds) > 1 and max(map(len, feeds)) <= BLOCK:
             logits = self._run(slice(None), self.lengths, feeds, wanted)
         else:  # prompts one after the other, so that none is filled up to the longest
             parts = enumerate(zip(feeds, wanted, strict=True))
@@ -324,8 +321,8 @@ class SmallPasses:
             gate, up = fed.chunk(2, -1)
             states = states + linear(silu(gate) * up, *layer.down)
         ends = (slots * row + len(feed) for row, feed in enumerate(feeds))
-        last = (range(end - count, end) for end, count in zip(ends, wanted, strict=True))
-        kept = list(itertools.chain.from_iterable(last))
+        last = zip(ends, wanted, strict=True)
+        kept = [place for end, count in last for place in range(end - count, end)]
         return linear(model.normalised(states[kept], model.norm), model.head)
 
     def _attend(
@@ -348,6 +345,5 @@ class SmallPasses:
             for part, rows, keys in grid.parts
         ]
         spread = torch.cat(found).view(len(queries), key_heads, -1, BLOCK, size)
-        spread = spread[..., : grid.width, :]
-        flat = spread.permute(0, 3, 1, 2, 4).reshape(len(states), heads * size)
+        flat = spread.permute(0, 3, 1, 2, 4)[:, : grid.width].reshape(len(states), heads * size)
         return linear(flat.to(states.dtype), *layer.out)
