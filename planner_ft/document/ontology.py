@@ -26,8 +26,8 @@ _PLACED = re.compile(
     r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
 )
 _BESIDE = re.compile(
-    r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|standing|lies?|lying|sits?|floats?|hangs?"
-    r"|rests?|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
+    r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|standing|lies?|lying|sits?|floats?"
+    r"|hangs?|rests?|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
     r"(?:in the \w+\s+)?(?:,?\s*namely\s+)?(?:at|near|around|in|on|by)\s*"
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )
@@ -37,9 +37,10 @@ _BEHIND = re.compile(
 )
 """What stands between coordinates and their thing: "at [0, 35] there is a rock"."""
 _STRETCHES = re.compile(r"[^.;!?\d]*\b(?:from|between)\b[^.;!?\d]*?[\[(]?\s*", re.IGNORECASE)
+_THERE = re.compile(r"\bthere(?:['’]s|\s+(?:is|are|was|were))\s+$", re.IGNORECASE)
 _ALONG = re.compile(r"\balong\s(?:[\w-]+\s){0,3}$", re.IGNORECASE)
 _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNORECASE)
-"""What stands before the ends of a thing, and between them: "a net runs from [0, 35] to [9, 35]"."""
+"""What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
@@ -125,16 +126,25 @@ def named_places(
 
 
 def named_lines(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position, Position]]:
-    """(words, one end, other end) of things that bar the way from one position to another."""
-    bars = language(vocabulary).words["bars"]
+    """(words, one end, other end) of things that bar the way from one position to another: those
+    of a kind that does, and others of which the command says that they are there.
+    """
+    spoken = language(vocabulary)
+    bars = [(match.start(), match.end()) for match in spoken.words["bars"].finditer(text)]
+    others = [
+        (start, end)
+        for start, end in _noun_phrases(text, spoken)
+        if _THERE.search(text, 0, start)
+        and not spoken.words["passable"].search(text, start, end)
+        and is_thing(text[start:end], vocabulary)
+    ]
     for one, other in itertools.pairwise(written_positions(text)):
         if not _ENDS.fullmatch(text, one.end, other.start):
             continue
-        for match in reversed(list(bars.finditer(text, 0, one.start))):
-            if _ALONG.search(text, 0, match.start()):
-                break
-            if _STRETCHES.fullmatch(text, match.end(), one.start):
-                yield match[0], one, other
+        for start, end in sorted((*bars, *others), reverse=True):
+            if _STRETCHES.fullmatch(text, end, one.start):
+                if not _ALONG.search(text, 0, start):
+                    yield text[start:end], one, other
                 break
 
 

@@ -100,8 +100,14 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             stated.setdefault(place, []).append(circle[1])
         elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:
             stated.setdefault(place, []).append(margin)
+    of_one_name = dict[str, list[Point]]()
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         named.setdefault((beside.x, beside.y), words)
+        of_one_name.setdefault(words, []).append((beside.x, beside.y))
+    # What is kept off one of "the pens at" is kept off all of them.
+    for places in of_one_name.values():
+        if distances := [kept[at] for at in places if at in kept]:
+            kept |= {at: max(distances) for at in places if at not in kept}
     for words, one, other in named_lines(frame_of(document).spoken, vocabulary):
         parts = along((one.x, one.y), (other.x, other.y), own)
         named |= {at: words for at in parts if at not in named}

@@ -153,7 +153,7 @@ def areas_of(command: str) -> list[Row]:
 
 
 def _whole(text: str, rows: Sequence[Row], limits: Limits, write: Write) -> str:
-    """The sentence of a limit with all corners of its area, where it lacks some, or has one twice."""
+    """The sentence of a limit with all corners of its area, where it lacks one or has one twice."""
     limit = read_limit(text, limits)
     corners = limit.values.get("polygon", []) if limit else []
     ends = corners[:-1] if corners[:1] == corners[-1:] else corners

@@ -115,6 +115,8 @@ def test_words_before_a_position_are_not_all_things(command: str) -> None:
         "A boom reaches from 60,-30 to 60,30.",
         "There is a net between the two buoys at [60, -15] and [60, 15].",
         "Mind the breakwater, it runs from 50,0 to 70,0.",
+        "There's a fish farm from 60,-30 to 60,30.",
+        "Keep out of the reeds, they run from 60,-20 to 60,20.",
         "Mind the dolphin standing right in the middle at 60,0.",
     ],
 )
@@ -122,6 +124,20 @@ def test_things_that_are_only_told_of_are_kept_clear_of(command: str) -> None:
     plan = document([transit(120, 0, "Go to [120, 0].")], command=f"{command} Go to 120,0.")
     assert nearest(plan, [60, 0]) >= 9.5
     assert waypoints(plan)[-1] == [120, 0]
+
+
+def test_what_is_kept_off_one_of_a_row_is_kept_off_all_of_it() -> None:
+    command = "Go to 150,-60. The net pens at [75, -30] and [110, -44] must be passed at 20 m."
+    limit = "The vehicle stays at least 20 m from the net pens at [75, -30]."
+    plan = document([transit(150, -60)], command=command, constraints=[limit])
+    assert nearest(plan, [75, -30]) >= 19 and nearest(plan, [110, -44]) >= 19
+
+
+def test_a_channel_and_a_cable_bar_no_way() -> None:
+    for thing in ("channel", "power cable"):
+        command = f"There is a {thing} from 60,-30 to 60,30. Go to 120,0."
+        plan = document([transit(120, 0, "Go to [120, 0].")], command=command)
+        assert waypoints(plan) == [[120, 0]]
 
 
 def test_what_is_run_along_bars_no_way_and_a_bar_is_warned_of_once() -> None:

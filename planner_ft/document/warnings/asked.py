@@ -19,6 +19,7 @@ ARTICLE = 3  # words before a noun among which its article is
 NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
 IT = re.compile(r"\s+(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
+BEGUN = re.compile(r"[.!?;]\s+(?:(?:no|oh|er|um|wait|sorry|actually)\W*)*$", re.IGNORECASE)
 SENTENCE = re.compile(r"[.!?;]\s")
 # The share of unknown words of another language (benchmarks/language_check.py).
 UNKNOWN = 0.55
@@ -143,7 +144,9 @@ def _taken_back_as_it(case: Case) -> Iterator[tuple[Ask, str]]:
         ruled_out = case.words["exclusion"].search(clause.text)
         if ruled_out and IT.fullmatch(clause.text, ruled_out.end()):
             before = [(start, at) for start, at in said if start < clause.start]
-            if before and not SENTENCE.search(case.command, before[-1][0], clause.start):
+            between = case.command[before[-1][0] : clause.start] if before else ""
+            # "Take a panorama. No, forget that": the words begin the next sentence.
+            if before and not SENTENCE.search(BEGUN.sub("", between)):
                 yield case.spoken.asks[before[-1][1]], quoted(clause.text.strip(" ,;"))
 
 

@@ -115,7 +115,7 @@ def done_again(case: Case) -> Iterator[Warning]:
 
 
 def done_twice(case: Case) -> Iterator[Warning]:
-    """A task without a place that is done twice on end, for which the command has words once at most."""
+    """A task without a place that is done twice on end, for words that are said once at most."""
     again = any(
         case.words[name].search(case.command) for name in ("again", "repeats", "everywhere")
     )
@@ -215,7 +215,9 @@ def _is_at(task: Entry, place: Position, vocabulary: Vocabulary) -> bool:
 
 
 def misnamed(case: Case) -> Iterator[Warning]:
-    """A task prompt that puts one thing of the command where the command has another."""
+    """A task prompt that puts one thing of the command where the command has another, and a limit
+    with its thing at another place than the command has it.
+    """
     said = [(words.casefold(), at) for words, at in named_places(case.text, case.vocabulary)]
     names = {words for words, _place in said}
     for task in case.tasks:
@@ -225,6 +227,19 @@ def misnamed(case: Case) -> Iterator[Warning]:
             if there and words.casefold() in names - there:
                 values = {"words": words, "place": shown(at), "other": min(there)}
                 yield warning("contradiction", "misnamed", task, **values)
+    for limit in case.limits:
+        thing, at = limit["values"].get("object"), limit["values"].get("position")
+        known = [place for words, place in said if thing and _is_named(words, thing)]
+        if at and known and not any(same_place(place, at) for place in known):
+            text, where = limit["text"].rstrip("."), shown((known[0].x, known[0].y))
+            told = {"limit": text, "words": thing, "place": where}
+            yield warning("contradiction", "limit_misplaced", None, about=text, **told)
+
+
+def _is_named(words: str, thing: str) -> bool:
+    """Whether two names end with one word, in the singular or in the plural."""
+    one, other = (name.casefold().split()[-1].removesuffix("s") for name in (words, thing))
+    return one == other
 
 
 def laid_otherwise(case: Case) -> Iterator[Warning]:

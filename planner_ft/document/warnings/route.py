@@ -236,7 +236,7 @@ def close_structures(case: Case) -> Iterator[Warning]:
     from one place to another its nearest part.
     """
     limited = [limit["values"] for limit in case.limits]
-    told = {one.get("object") for one in limited}
+    told = {one.get("object") for one in limited if "position" not in one}
     told |= {shown(one["position"]) for one in limited if "position" in one}
     nearest = dict[tuple[str, str], tuple[float, Structure]]()
     for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):

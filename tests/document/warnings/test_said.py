@@ -54,6 +54,8 @@ LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 RAMP = "Visit the pier at 9,9 and the ramp at 30,9. On second thoughts leave out the ramp."
 AREA = "Go to 100,50 but never leave the area 0,0 200,0 200,200 0,200, then come home."
 PLATFORM = "Go to [100, 0] and do not go closer than 70 m to the platform at 260,80."
+KAYAK = "The vehicle stays at least 15 m from the kayak at [9, 50]."
+RAFT = "The vehicle stays at least 15 m from the raft at [9, 9]."
 AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
 
 
@@ -137,6 +139,15 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
             [orbit(360)],
             (),
             "limit-lost value-lost",
+        ),
+        ("Look all round. No, forget that, go to 9,9.", [look(8), to(9, 9)], (), "contradiction"),
+        ("Go to 9,9, not over 3 knots.", [to(9, 9)], (), "limit-lost"),
+        ("Go to 9,9. Two kayaks are tied up at 9,50, stay 15 m off.", [to(9, 9)], (KAYAK,), None),
+        (
+            "Go to 9,9. Two rafts are tied up at 9,50, stay 15 m off.",
+            [to(9, 9)],
+            (RAFT,),
+            "contradiction",
         ),
         ("Go to 9,9 and stay south of the line y = 150.", [to(9, 9)], (), "value-lost"),
         (
