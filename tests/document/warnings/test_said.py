@@ -140,7 +140,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
             (),
             "limit-lost value-lost",
         ),
-        ("Look all round. No, forget that, go to 9,9.", [look(8), to(9, 9)], (), "contradiction"),
+        ("Take a panorama. No, forget that, go to 9,9.", [look(8), to(9, 9)], (), "contradiction"),
         ("Go to 9,9, not over 3 knots.", [to(9, 9)], (), "limit-lost"),
         ("Go to 9,9. Two kayaks are tied up at 9,50, stay 15 m off.", [to(9, 9)], (KAYAK,), None),
         (
