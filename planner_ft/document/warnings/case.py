@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.document.language import Clause, language, read_clauses
-from planner_ft.document.track import Track
+from planner_ft.document.track import Track, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_numbers
@@ -175,10 +175,12 @@ class PlanValues:
         self.limited = [float(value) for value in self.limits if is_number(value)]
         self.polygons = [value for value in (*own, *self.limits) if _is_polygon(value)]
         places = [tuple(value) for value in own if is_place(value)]
-        self.often = [
-            *(gone or places),
-            *((task["title"], str(task["parameters"])) for task in tasks),
-        ]
+        # The same task at other places is not done again.
+        where, last = list[Any](), None
+        for task in tasks:
+            last = place_of(task, command.vocabulary) or last
+            where.append((task["title"], str(task["parameters"]), last))
+        self.often = [*(gone or places), *where]
         texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
         texts += [task["task_prompt"] for task in tasks]
         read = [(place.x, place.y) for line in texts for place in read_positions(line)]

@@ -114,6 +114,13 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4), to(4, 0), to(0, 4)], (), "repeat-lost"),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4)] * 2, (), None),
+        (
+            "Hold at 1,9, 2,9 and 3,9 for a minute, twice.",
+            [*at(1), *at(2), *at(3)],
+            (),
+            "repeat-lost",
+        ),
+        ("Hold at 1,9, 2,9 and 3,9 for a minute, twice.", [*at(1), *at(2), *at(3)] * 2, (), None),
         ("Map 50 by 50 m at 9,9, 10 m lines, east-west lines.", [grid(50, 50)], (), "value-lost"),
         (
             "Start in the north-east corner and map 50 by 50 m at 9,9.",
