@@ -175,12 +175,12 @@ def _sampled(
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():
-            count = number or TASKS[split]
+            count, train = number or TASKS[split], splits.get("train", ())
             records = splits[split] = []
             samples = (
                 sample_missions(settings.seed, count, vocabulary)
                 if synthetic
-                else sample_tasks(vocabulary, settings.seed, count, split)
+                else sample_tasks(vocabulary, settings.seed, count, split, apart=train)
             )
             for record in samples:
                 if synthetic and (

@@ -6,6 +6,7 @@ baseline answers a test prompt with the expected plan of the most similar traini
 over words and word pairs, cosine): a model has to be better than that.
 """
 
+import functools
 import itertools
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -49,22 +50,24 @@ def leakage_report(
     exactly or nearly, the phrasing families that both have, and the ids of up to five near pairs.
     """
     written = {name: [str(record["prompt"]) for record in splits[name]] for name in splits}
-    masked = {name: [mask(text) for text in texts] for name, texts in written.items()}
+    same = {name: [*zip(*map(forms, texts), strict=True)] for name, texts in written.items()}
     families = {
         name: {record["family"] for record in records if "family" in record}
         for name, records in splits.items()
     }
     progress("near duplicates")
-    near, near_masked = _near_pairs(written), _near_pairs(masked)
+    near = _near_pairs(written)
+    near_masked = _near_pairs({name: masked for name, (_exact, masked) in same.items()})
     overlaps = []
     for (second, first), pairs in near.items():
         places = itertools.islice(pairs.items(), 5)
+        exact, exact_masked = map(_shared, same[second], same[first])
         overlap = {
             "split": second,
             "other": first,
-            "exact": _shared(written[second], written[first]),
+            "exact": exact,
             "near": len(pairs),
-            "exact_masked": _shared(masked[second], masked[first]),
+            "exact_masked": exact_masked,
             "near_masked": len(near_masked[second, first]),
             "families": len(families[second] & families[first]),
             "examples": [
@@ -103,9 +106,14 @@ def input_digest(text: str) -> str:
     return sha256_text(" ".join(shingle_words(text)))[:16]
 
 
+def forms(prompt: str) -> tuple[str, str]:
+    """The text and its phrasing: a prompt that has either of them from another is its duplicate."""
+    return prompt.lower(), mask(prompt).lower()
+
+
 def _shared(texts: Sequence[str], others: Sequence[str]) -> int:
-    known = {text.lower() for text in others}
-    return sum(text.lower() in known for text in texts)
+    known = set(others)
+    return sum(text in known for text in texts)
 
 
 def _shingles(text: str) -> Shingles:
@@ -196,6 +204,7 @@ def shingle_words(text: str) -> list[str]:
     return _SHINGLE.findall(text.lower())
 
 
+@functools.lru_cache(maxsize=1 << 15)
 def mask(text: str) -> str:
     """The text with its numbers, in figures or words, and its names replaced: what is left is the
     phrasing.

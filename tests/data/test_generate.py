@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from planner_ft.cli.app import app
 from planner_ft.data.generate import GenerationSettings, generate
+from planner_ft.document.own_vehicle import new_vehicle
 from planner_ft.prompts import chat_messages
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, sha256_file, write_jsonl
@@ -25,6 +26,7 @@ ROOT = Path(__file__).parents[2]
 CURATED = ROOT / "data" / "mission"
 DRONE = ROOT / "data" / "inspection_drone" / "mission"
 SMALL: dict[str, Any] = {"train": 20, "validation": 5, "test": 6}
+HELD_OUT = ("validation", "test", "test_unseen")
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -168,6 +170,27 @@ def test_another_vehicle_has_its_task_set(tmp_path: Path) -> None:
             )
         )
     assert not (tmp_path / "all").exists()
+
+
+def test_no_held_out_prompt_repeats_the_training_split(tmp_path: Path) -> None:
+    """Neither the text nor, with its values masked, the phrasing: in a vehicle with few words many
+    would.
+    """
+    new_vehicle("rover", tmp_path / "rover")
+    source = str(tmp_path / "rover" / "rover.toml")
+    (result,) = generate(
+        GenerationSettings(
+            "task", tmp_path, train=2000, validation=100, test=100, vocabulary=source
+        )
+    )
+    assert result.counts == {"train": 2000, **dict.fromkeys(HELD_OUT, 100)}
+    report = json.loads((result.folder / "leakage.json").read_text())
+    repeated = {
+        item["split"]: (item["exact"], item["exact_masked"])
+        for item in report["overlaps"]
+        if item["other"] == "train"
+    }
+    assert repeated == dict.fromkeys(HELD_OUT, (0, 0))
 
 
 def test_the_second_vehicle_has_both_levels_in_its_own_folder() -> None:

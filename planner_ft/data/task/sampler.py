@@ -5,8 +5,9 @@
 About half of the samples are put together (compose.py): movements, filters and perception skills of
 a task, each in a clause of the phrase file, and the label is exactly what the clauses say. The
 others come from whole-prompt templates (prompts/), which belong to one of the splits each. The
-skeleton of a prompt, its text without the values, decides which of train, validation and test may
-hold it.
+skeleton of a prompt, its text without the values, and its task decide which of train, validation and
+test may hold it. That does not keep all texts apart: two tasks may have a short one in common, and
+noise is drawn later. So what would repeat the training split is drawn again.
 
 The sampler's prompts say what to do skill by skill; a task prompt of a synthetic mission says what
 is wanted ("Circle the met mast at [120, -35] at a stand-off of 25 m."), and `skills` in
@@ -18,10 +19,11 @@ grid without a size) is left out: no number is made up.
 import functools
 import itertools
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from random import Random
 from typing import Any, Literal, get_args
 
+from planner_ft.data.leakage import forms
 from planner_ft.data.mission_plan import Beside
 from planner_ft.data.missions import missions_with_skills
 from planner_ft.data.numbers import pick
@@ -54,10 +56,16 @@ HELD_OUT = 12
 
 
 def sample_tasks(
-    vocabulary: Vocabulary, seed: int, count: int | None, split: Split, subjects: Sequence[str] = ()
+    vocabulary: Vocabulary,
+    seed: int,
+    count: int | None,
+    split: Split,
+    subjects: Sequence[str] = (),
+    apart: Iterable[Mapping[str, Any]] = (),
 ) -> Iterator[dict[str, Any]]:
     """Yield `count` different records, or an endless stream when `count` is None; same seed, same
-    records. With `subjects` they come from the whole-prompt templates of these subjects alone.
+    records. With `subjects` they come from the whole-prompt templates of these subjects alone. No
+    prompt is a duplicate of one of the records `apart`, in the text or with the values masked.
 
     Record: {"id", "family", "task", "parameters", "prompt", "expected"}, canonical and strictly
     valid. Raises PlannerError for an unknown split, for subjects without a template, or when the
@@ -73,19 +81,21 @@ def sample_tasks(
             f"vocabulary {vocabulary.name}: split {split} has no prompt templates of"
             f" {', '.join(subjects)}; a subject is the name of a file of templates"
         )
+    known = {form for record in apart for form in forms(record["prompt"])}
     share, seen, misses = 1.0 if subjects else TEMPLATES, set[int](), 0
     for number in itertools.count() if count is None else range(count):
         whole = bool(groups) and rng.random() < share
         while True:
             if drawn := _record(book, split, groups if whole else [], rng):
                 key = hash((drawn["task"], repr(drawn["parameters"]), drawn["prompt"]))
-                if key not in seen:
+                if key not in seen and not (known and known & {*forms(drawn["prompt"])}):
                     break
             misses += 1
             if misses > 5000 + 500 * (number + 1):
                 raise PlannerError(
                     f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different"
-                    " samples; ask for fewer or add phrases"
+                    f" samples{' that are not in train' if known else ''}; ask for fewer or add"
+                    " phrases"
                 )
         seen.add(key)
         yield {"id": f"task-{split}-{number:06d}", **drawn}

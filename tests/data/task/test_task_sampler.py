@@ -73,6 +73,12 @@ def test_splits_share_no_prompt_even_with_numbers_masked():
             assert seen.setdefault(key, split) == split
 
 
+def test_a_vehicle_whose_texts_are_all_in_train_is_told_so(monkeypatch):
+    monkeypatch.setattr(sampler, "forms", lambda _prompt: ("one text", "one text"))
+    with pytest.raises(PlannerError, match=r"test has fewer than 9 .* that are not in train; ask"):
+        next(sample_tasks(USV, 3, 9, "test", apart=sampled("train", 1)))
+
+
 def test_unseen_families_occur_nowhere_else():
     unseen = {record["family"] for record in sampled("test_unseen", 300)}
     assert not unseen & {
