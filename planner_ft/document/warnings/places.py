@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
-from planner_ft.document.ontology import named_places
+from planner_ft.document.ontology import named_lines, named_places
 from planner_ft.document.structures import structures
 from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings import picked
@@ -15,6 +15,10 @@ from planner_ft.facts.places import lone_coordinates, read_bearings, read_geogra
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
+IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
+SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
+"""The rest of a sentence, and the next."""
+
 
 def positions(case: Case) -> Iterator[Warning]:
     """Single positions, and latitudes and longitudes alone, that the plan has nowhere."""
@@ -22,10 +26,12 @@ def positions(case: Case) -> Iterator[Warning]:
     passed |= {*picked.left_out(case)}
     passed |= {place for _clause, _name, place in _left_out(case)}
     passed |= {place for behind, place in _ruled_out(case) if place.start < behind.start}
-    kept_off = [one.position for one in structures(case.document, case.vocabulary)]
-    for place in case.positions:
-        wanted = case.wants(place.start) and place not in passed and not case.plan.has(place)
-        if wanted and not (_is_told_of(place, case) and _is_known(place, kept_off)):
+    wanted = (one for one in case.positions if case.wants(one.start) and one not in passed)
+    missing = [place for place in wanted if not case.plan.has(place)]
+    known = structures(case.document, case.vocabulary) if missing else ()
+    for place in missing:
+        kept_off = any(same_place(place, one.position) for one in known)
+        if not (kept_off and _is_told_of(place, case)):
             yield lost(case.text[place.start : place.end])
     for start, end in lone_coordinates(case.text):
         words = case.text[start:end].strip()
@@ -34,21 +40,22 @@ def positions(case: Case) -> Iterator[Warning]:
 
 
 def _is_told_of(place: Position, case: Case) -> bool:
-    """Whether words at a place tell what is there, and ask for nothing: those before its row, or
-    behind it.
+    """Whether words at a place tell what is there, before its row or behind it, and neither they
+    nor the next sentence ask for anything there. A bar is only told of.
     """
+    bars = named_lines(case.text, case.vocabulary)
+    if any(place.start in (one.start, other.start) for _words, one, other in bars):
+        return True
     row = next(row for row in rows_of(case.text, case.positions) if place in row)
     inside = [one for one in case.clauses if one.end > row[0].start][:1]
     inside += [one for one in case.clauses if one.start > row[-1].start][:1]
-    tells = case.words["tells"]
-    if not inside or not any(tells.search(one.text) for one in inside):
-        return False
-    asking = [case.words["verb"], *(ask.said for ask in case.spoken.asks)]
-    return not any(words.match(inside[0].text.strip()) for words in asking)
-
-
-def _is_known(place: Position, others: list[Point]) -> bool:
-    return any(same_place(place, at) for at in others)
+    told = " ".join(one.text for one in inside)
+    behind = SENTENCES.match(case.text, row[-1].end)
+    meant = IT.search(behind[0]) and not case.words["away"].search(behind[0]) if behind else None
+    asking = [case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
+    asked = any(words.search(told) for words in asking)
+    asked = asked or case.words["verb"].match(told.strip()) is not None
+    return case.words["tells"].search(told) is not None and not (asked or meant)
 
 
 def geographic(case: Case) -> Iterator[Warning]:
