@@ -37,7 +37,7 @@ _BEHIND = re.compile(
 )
 """What stands between coordinates and their thing: "at [0, 35] there is a rock"."""
 _STRETCHES = re.compile(r"[^.;!?\d]*\b(?:from|between)\b[^.;!?\d]*?[\[(]?\s*", re.IGNORECASE)
-_THERE = re.compile(r"\bthere(?:['’]s|\s+(?:is|are|was|were))\s+$", re.IGNORECASE)
+_THERE = re.compile(r"\bthere(?:['’]s|\s+(?:is|are|was|were))\s+", re.IGNORECASE)
 _ALONG = re.compile(r"\balong\s(?:[\w-]+\s){0,3}$", re.IGNORECASE)
 _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNORECASE)
 """What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
@@ -131,10 +131,11 @@ def named_lines(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Positi
     """
     spoken = language(vocabulary)
     bars = [(match.start(), match.end()) for match in spoken.words["bars"].finditer(text)]
+    there = {match.end() for match in _THERE.finditer(text)}
     others = [
         (start, end)
         for start, end in _noun_phrases(text, spoken)
-        if _THERE.search(text, 0, start)
+        if start in there
         and not spoken.words["passable"].search(text, start, end)
         and is_thing(text[start:end], vocabulary)
     ]

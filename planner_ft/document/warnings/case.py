@@ -4,6 +4,7 @@ its command, read once for all checks.
 
 from __future__ import annotations
 
+import bisect
 import functools
 import itertools
 import math
@@ -134,7 +135,8 @@ class Case:
 
     def clause_at(self, place: int) -> Clause | None:
         """The clause in which a place of the text is."""
-        return next((one for one in self.clauses if one.start <= place < one.end), None)
+        at = bisect.bisect(self.clauses, place, key=lambda one: one.start) - 1
+        return self.clauses[at] if at >= 0 and place < self.clauses[at].end else None
 
     def wants(self, place: int) -> bool:
         """Whether words at a place of the text are neither ruled out nor taken back."""
