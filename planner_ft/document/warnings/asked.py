@@ -283,8 +283,26 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
         if words:
             listed, about = ", ".join(f'"{one}"' for one in words), " ".join(words).casefold()
             yield warning("data-not-planned", "nowhere", about=about, words=listed)
+        elif case.words["throughout"].search(clause.text):
+            yield from _with_gaps(asked, clause, own, case)
         elif case.words["everywhere"].search(clause.text):
             yield from _once(asked, clause, own, case.tasks)
+
+
+def _with_gaps(
+    asked: list[Data], clause: Clause, own: list[set[str]], case: Case
+) -> Iterator[Warning]:
+    """Data that are asked for on every way, and one that does not gather them."""
+    for data in (one for one in asked if one.skills and any(clause.spans(one.said))):
+        ways = [
+            task
+            for task, names in zip(case.tasks, own, strict=True)
+            if task["title"] == case.vocabulary.transit and not data.skills & names
+        ]
+        for task in ways[:1]:
+            words = quoted(clause.text.strip(" ,;"))
+            values: dict[str, Any] = {"words": words, "skills": ", ".join(sorted(data.skills))}
+            yield warning("data-not-planned", "gap", task, about=words.casefold(), **values)
 
 
 def _once(

@@ -133,3 +133,16 @@ def test_a_task_that_no_words_ask_for_is_named() -> None:
     for command, count in (("Go on and read the gauge.", 1), ("Look all round.", 0)):
         made = document([look], command=command)
         assert [one["text"] for one in made["warnings"]].count(said) == count
+
+
+@pytest.mark.parametrize(("skills", "count"), [((), 1), (("SetStreamRecording",), 0)])
+def test_data_until_the_vehicle_is_back_are_gathered_on_every_way(
+    skills: tuple[str, ...], count: int
+) -> None:
+    ways = []
+    for x, names in ((40, ("SetStreamRecording",)), (0, skills)):
+        one: dict[str, Any] = step("GoToXY", {"x": x, "y": 0})
+        one["perception_skills"] = [{"name": name, "parameters": {}} for name in names]
+        ways.append(task("Transit", {"target_position": [x, 0]}, [one]))
+    made = document(ways, command="Video from start to finish: out to [40, 0], home.")
+    assert [item["kind"] for item in made["warnings"]].count("data-not-planned") == count
