@@ -297,7 +297,9 @@ def _with_gaps(
         ways = [
             task
             for task, names in zip(case.tasks, own, strict=True)
-            if task["title"] == case.vocabulary.transit and not data.skills & names
+            if task["skill_sequence"]
+            and task["title"] == case.vocabulary.transit
+            and not data.skills & names
         ]
         for task in ways[:1]:
             words = quoted(clause.text.strip(" ,;"))
