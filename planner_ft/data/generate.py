@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.data.curated import curated_folder, curated_splits, find_source
-from planner_ft.data.leakage import leakage_report
+from planner_ft.data.leakage import forms, leakage_report
 from planner_ft.data.missions import sample_missions
 from planner_ft.data.output import Generated, dataset_card, lines_of, write_sets
 from planner_ft.data.task.sampler import sample_tasks
@@ -169,13 +169,14 @@ def _sampled(
     name: str, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
+    train: set[str] = set()
     synthetic = name == SYNTHETIC
     asked: dict[Any, int | None] = settings.counts("task")
     asked = {"train": settings.synthetic} if synthetic else asked
     gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
     try:
         for split, number in asked.items():
-            count, train = number or TASKS[split], splits.get("train", ())
+            count = number or TASKS[split]
             records = splits[split] = []
             samples = (
                 sample_missions(settings.seed, count, vocabulary)
@@ -190,6 +191,8 @@ def _sampled(
                 records.append(record)
                 if len(records) % 100 == 0 or len(records) == count:
                     progress(f"{name}: {split}", len(records), count)
+            if split == "train" and not synthetic:
+                train = {form for record in records for form in forms(record["prompt"])}
     finally:
         gc.enable()
     return splits

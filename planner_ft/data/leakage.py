@@ -194,7 +194,7 @@ def _terms(record: Mapping[str, Any]) -> list[str]:
 NUMBER, NAME = "#", "@"
 _NUMBER_WORDS = {*SMALL, "hundred", "thousand", "half", "quarter"} - {"oh", "couple"}
 _SHINGLE = re.compile(r"[#@]|-?\d+(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)?")
-_CODE = re.compile(r"\b(?=\w*\d)(?=\w*[A-Za-z])[\w-]+\b")
+_CODE = re.compile(r"\b(?=[^\W\d]*+\d)(?=\w*[A-Za-z])[\w-]+\b")
 _NAME = re.compile(r"(?<![.!?:;]\s)(?<!^)(?<![\w\"])[A-Z][\w'’-]*(?:\s+(?:[A-Z][\w'’-]*|#))*")
 _NUMBER = re.compile(r"-?\d+(?:[.,]\d+)*")
 

@@ -19,7 +19,7 @@ grid without a size) is left out: no number is made up.
 import functools
 import itertools
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence, Set
 from random import Random
 from typing import Any, Literal, get_args
 
@@ -61,11 +61,11 @@ def sample_tasks(
     count: int | None,
     split: Split,
     subjects: Sequence[str] = (),
-    apart: Iterable[Mapping[str, Any]] = (),
+    apart: Set[str] = frozenset(),
 ) -> Iterator[dict[str, Any]]:
     """Yield `count` different records, or an endless stream when `count` is None; same seed, same
     records. With `subjects` they come from the whole-prompt templates of these subjects alone. No
-    prompt is a duplicate of one of the records `apart`, in the text or with the values masked.
+    prompt has one of the `forms` that are `apart`.
 
     Record: {"id", "family", "task", "parameters", "prompt", "expected"}, canonical and strictly
     valid. Raises PlannerError for an unknown split, for subjects without a template, or when the
@@ -81,20 +81,19 @@ def sample_tasks(
             f"vocabulary {vocabulary.name}: split {split} has no prompt templates of"
             f" {', '.join(subjects)}; a subject is the name of a file of templates"
         )
-    known = {form for record in apart for form in forms(record["prompt"])}
     share, seen, misses = 1.0 if subjects else TEMPLATES, set[int](), 0
     for number in itertools.count() if count is None else range(count):
         whole = bool(groups) and rng.random() < share
         while True:
             if drawn := _record(book, split, groups if whole else [], rng):
                 key = hash((drawn["task"], repr(drawn["parameters"]), drawn["prompt"]))
-                if key not in seen and not (known and known & {*forms(drawn["prompt"])}):
+                if key not in seen and not (apart and apart & {*forms(drawn["prompt"])}):
                     break
             misses += 1
             if misses > 5000 + 500 * (number + 1):
                 raise PlannerError(
                     f"vocabulary {vocabulary.name}: split {split} has fewer than {count} different"
-                    f" samples{' that are not in train' if known else ''}; ask for fewer or add"
+                    f" samples{' that are not in train' if apart else ''}; ask for fewer or add"
                     " phrases"
                 )
         seen.add(key)

@@ -74,9 +74,9 @@ def test_splits_share_no_prompt_even_with_numbers_masked():
 
 
 def test_a_vehicle_whose_texts_are_all_in_train_is_told_so(monkeypatch):
-    monkeypatch.setattr(sampler, "forms", lambda _prompt: ("one text", "one text"))
+    monkeypatch.setattr(sampler, "forms", lambda prompt: ("one text", prompt))
     with pytest.raises(PlannerError, match=r"test has fewer than 9 .* that are not in train; ask"):
-        next(sample_tasks(USV, 3, 9, "test", apart=sampled("train", 1)))
+        next(sample_tasks(USV, 3, 9, "test", apart={"one text"}))
 
 
 def test_unseen_families_occur_nowhere_else():
