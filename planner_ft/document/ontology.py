@@ -5,7 +5,7 @@ A missing element becomes a question to the operator and blocks nothing: most co
 
 import itertools
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Language, language, pattern, read_clauses
@@ -14,6 +14,7 @@ from planner_ft.facts.places import read_positions, rows_of, written_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 
+Way = tuple[tuple[float, float], tuple[float, float]]  # from one position to another
 LONGEST_NAME = 7  # words of a noun phrase that are looked at
 LONGEST_PIECE = 1500  # characters that are read at once
 CLOSED = ("]", ")")
@@ -36,7 +37,12 @@ _BEHIND = re.compile(
     r"[\])]?\s*,?\s*(?:there\s+)?(?:is|are|lies?|stands?|sits?|floats?|hangs?|rests?)\s+"
 )
 """What stands between coordinates and their thing: "at [0, 35] there is a rock"."""
-_STRETCHES = re.compile(r"[^.;!?\d]*\b(?:from|between)\b[^.;!?\d]*?[\[(]?\s*", re.IGNORECASE)
+_STRETCHES = re.compile(
+    r",?\s*(?:(?:it|they|which|that)\s+)?(?:(?!(?:and|then|but|or|to)\b)[\w-]+\s+){0,4}?"
+    r"(?:from|between)\b\s*(?:(?:the|two|three|[a-z]+s|at)\s+){0,4}?[\[(]?\s*",
+    re.IGNORECASE,
+)
+_DIRECT = re.compile(r"\s*(?:from|between)\b", re.IGNORECASE)
 _THERE = re.compile(r"\bthere(?:['’]s|\s+(?:is|are|was|were))\s+", re.IGNORECASE)
 _ALONG = re.compile(r"\balong\s(?:[\w-]+\s){0,3}$", re.IGNORECASE)
 _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNORECASE)
@@ -125,9 +131,12 @@ def named_places(
             yield words, place
 
 
-def named_lines(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Position, Position]]:
+def named_lines(
+    text: str, vocabulary: Vocabulary, ways: Container[Way] = ()
+) -> Iterator[tuple[str, Position, Position]]:
     """(words, one end, other end) of things that bar the way from one position to another: those
-    of a kind that does, and others of which the command says that they are there.
+    of a kind that does, and others of which the command says that they are there. "Past the pier
+    from A to B" names none where the plan goes that way (`ways`).
     """
     spoken = language(vocabulary)
     bars = [(match.start(), match.end()) for match in spoken.words["bars"].finditer(text)]
@@ -142,9 +151,11 @@ def named_lines(text: str, vocabulary: Vocabulary) -> Iterator[tuple[str, Positi
     for one, other in itertools.pairwise(written_positions(text)):
         if not _ENDS.fullmatch(text, one.end, other.start):
             continue
+        route = ((one.x, one.y), (other.x, other.y)) in ways
         for start, end in sorted((*bars, *others), reverse=True):
-            if _STRETCHES.fullmatch(text, end, one.start):
-                if not _ALONG.search(text, 0, start):
+            if between := _STRETCHES.fullmatch(text, end, one.start):
+                gone = route and start not in there and _DIRECT.match(between[0])
+                if not (gone or _ALONG.search(text, 0, start)):
                     yield text[start:end], one, other
                 break
 

@@ -16,6 +16,7 @@ from planner_ft.document.limits import limits_of
 from planner_ft.document.ontology import is_thing, named_lines, named_places, stands
 from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of, shown
 from planner_ft.document.vehicle import STAND_OFF
+from planner_ft.facts import Position
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Entry, Vocabulary
 
@@ -108,7 +109,7 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
     for places in of_one_name.values():
         if distances := [kept[at] for at in places if at in kept]:
             kept |= {at: max(distances) for at in places if at not in kept}
-    for words, one, other in named_lines(frame_of(document).spoken, vocabulary):
+    for words, one, other in bars(document, vocabulary):
         parts = along((one.x, one.y), (other.x, other.y), own)
         named |= {at: words for at in parts if at not in named}
         # The circles of a long thing are larger: they leave no gap.
@@ -189,6 +190,14 @@ def runs_along(task: Entry, vocabulary: Vocabulary) -> bool:
     """Whether a task passes along a face, close to it on purpose."""
     known = vocabulary.task.get(task["title"])
     return known is not None and known.pattern == "pass"
+
+
+def bars(document: Entry, vocabulary: Vocabulary) -> Iterator[tuple[str, Position, Position]]:
+    """What bars the way from one position of the command to another, by its words."""
+    found = (place_of(task, vocabulary) for task in document["tasks"])
+    places = [vocabulary.home, *(at for at in found if at is not None)]
+    ways = {*itertools.pairwise(places)}
+    return named_lines(frame_of(document).spoken, vocabulary, ways)
 
 
 def along(start: Point, end: Point, apart: float) -> list[Point]:

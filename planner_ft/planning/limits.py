@@ -84,6 +84,9 @@ def with_return(plan: Plan, vocabulary: Vocabulary) -> Plan:
     home, way = list(vocabulary.home), vocabulary.task.get(vocabulary.transit)
     if not back or way is None or last_away(plan["tasks"], vocabulary) is None:
         return plan
+    # A way that needs more than its place, such as a height, is left to the warnings.
+    if any(item.required and item.name != way.position_parameter for item in way.parameters):
+        return plan
     prompt = f"Return home to {written(home)}."
     task = {"title": way.title, "parameters": {way.position_parameter: home}}
     return {**plan, "tasks": [*plan["tasks"], {**task, "task_prompt": prompt}]}

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document import apply, differences, undo
-from planner_ft.planning.limits import with_limits, without_limits
+from planner_ft.planning.limits import with_limits, with_return, without_limits
 from planner_ft.support.errors import PlannerError
 from tests.documents import DRONE, USV, document, step, task
 
@@ -380,3 +380,22 @@ def test_a_limit_holds_for_the_tasks_that_it_names_and_stale_skills_stay_as_they
     plan = apply(plan, {"kind": "constraint", "at": 0, "text": FENCE.replace("200", "300")}, USV)
     first, second = (one["skill_sequence"][0]["filter_skills"] for one in plan["tasks"])
     assert (len(first), len(second)) == (0, 1)
+
+
+@pytest.mark.parametrize(
+    ("title", "values", "limit", "titles"),
+    [
+        ("Transit", [9, 9], "The vehicle is back within 40 minutes.", ["Transit", "Transit"]),
+        ("Transit", [0, 0], "The vehicle is back within 40 minutes.", ["Transit"]),
+        ("DockingApproach", [9, 9], "The vehicle is back by 14:30.", ["DockingApproach"]),
+        ("Transit", [9, 9], "The mission takes at most 600 s.", ["Transit"]),
+    ],
+)
+def test_a_time_of_return_brings_the_way_home(
+    title: str, values: list[int], limit: str, titles: list[str]
+) -> None:
+    name = "goal_position" if title == "DockingApproach" else "target_position"
+    one = {"title": title, "parameters": {name: values}, "task_prompt": "Do it."}
+    plan = with_return({"tasks": [one], "constraints": [limit]}, USV)
+    assert [task["title"] for task in plan["tasks"]] == titles
+    assert plan["tasks"][-1]["parameters"] == {name: values if len(titles) == 1 else [0, 0]}

@@ -62,7 +62,7 @@ CHECKS: tuple[Check, ...] = (
     *(places.positions, said.limits, said.repeats, said.devices, places.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsaid_skills),
-    *(places.done_again, places.done_twice, picked.elsewhere),
+    *(places.done_again, places.done_twice, places.gone_to_bars, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

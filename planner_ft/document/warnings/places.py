@@ -5,8 +5,8 @@ import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
-from planner_ft.document.ontology import named_lines, named_places
-from planner_ft.document.structures import structures
+from planner_ft.document.ontology import named_places
+from planner_ft.document.structures import bars, structures
 from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
@@ -43,8 +43,8 @@ def _is_told_of(place: Position, case: Case) -> bool:
     """Whether words at a place tell what is there, before its row or behind it, and neither they
     nor the next sentence ask for anything there. A bar is only told of.
     """
-    bars = named_lines(case.text, case.vocabulary)
-    if any(place.start in (one.start, other.start) for _words, one, other in bars):
+    lines = bars(case.document, case.vocabulary)
+    if any((place.x, place.y) in ends for ends in map(_ends, lines)):
         return True
     row = next(row for row in rows_of(case.text, case.positions) if place in row)
     inside = [one for one in case.clauses if one.end > row[0].start][:1]
@@ -56,6 +56,19 @@ def _is_told_of(place: Position, case: Case) -> bool:
     asked = any(words.search(told) for words in asking)
     asked = asked or case.words["verb"].match(told.strip()) is not None
     return case.words["tells"].search(told) is not None and not (asked or meant)
+
+
+def _ends(line: tuple[str, Position, Position]) -> list[tuple[float, float]]:
+    return [(end.x, end.y) for end in line[1:]]
+
+
+def gone_to_bars(case: Case) -> Iterator[Warning]:
+    """Ways to the end of what bars the way."""
+    ends = [end for line in bars(case.document, case.vocabulary) for end in _ends(line)]
+    for task in case.tasks if ends else ():
+        at = place_of(task, case.vocabulary)
+        if task["title"] == case.vocabulary.transit and at in ends:
+            yield warning("value-not-said", "asked", task, about="asked")
 
 
 def geographic(case: Case) -> Iterator[Warning]:
