@@ -101,6 +101,25 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             stated.setdefault(place, []).append(circle[1])
         elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:
             stated.setdefault(place, []).append(margin)
+    _of_command(document, own, kept, named, vocabulary)
+    for name, position in (*chart, *document.get("located", {}).items()):
+        if is_thing(name, vocabulary):
+            named[point_of(position)] = named.get(point_of(position)) or name
+    return [
+        Structure(name or shown(at), at, max(kept.get(at) or min(stated.get(at, [own])), least))
+        for at, name in named.items()
+        if at in kept or at not in excluded
+    ]
+
+
+def _of_command(
+    document: Entry,
+    own: float,
+    kept: dict[Point, float],
+    named: dict[Point, str],
+    vocabulary: Vocabulary,
+) -> None:
+    """Add the things that the command itself names, and the distances that are kept from them."""
     of_one_name = dict[str, list[Point]]()
     for words, beside in named_places(frame_of(document).spoken, vocabulary):
         named.setdefault((beside.x, beside.y), words)
@@ -114,14 +133,6 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
         named |= {at: words for at in parts if at not in named}
         # The circles of a long thing are larger: they leave no gap.
         kept |= {at: apart for at in parts if (apart := math.dist(*parts[:2])) > own + MARGIN}
-    for name, position in (*chart, *document.get("located", {}).items()):
-        if is_thing(name, vocabulary):
-            named[point_of(position)] = named.get(point_of(position)) or name
-    return [
-        Structure(name or shown(at), at, max(kept.get(at) or min(stated.get(at, [own])), least))
-        for at, name in named.items()
-        if at in kept or at not in excluded
-    ]
 
 
 def _margin(task: Entry, vocabulary: Vocabulary) -> float:

@@ -10,6 +10,7 @@ from rich.console import Console
 
 from planner_ft.benchmark.catalogue import METRICS
 from planner_ft.benchmark.layout import print_results, published_rows
+from planner_ft.benchmark.metrics.answers import FAILURES
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.benchmark.tables import render_tables
@@ -23,19 +24,7 @@ def results(
         "latency_s": Estimate(0.345, 0.3, 0.4),
         "parameters": Estimate(None),
     }
-    failures = dict.fromkeys(
-        (
-            "prerequisite omission",
-            "parameter propagation",
-            "substitution",
-            "hallucination",
-            "omission",
-            "extra step",
-            "wrong order",
-            "invalid output",
-        ),
-        1,
-    )
+    failures = dict.fromkeys(FAILURES, 1)
     rows = tuple(
         Row(
             **vars(system),

@@ -28,7 +28,7 @@ def orbit(x: float) -> dict[str, Any]:
 
 def said(command: str, *tasks: dict[str, Any]) -> list[str]:
     warnings = document([*tasks], command=command)["warnings"]
-    return [one["text"] for one in warnings if "at another place" in one["text"]]
+    return [one["text"] for one in warnings if "does not keep to that" in one["text"]]
 
 
 @pytest.mark.parametrize(
