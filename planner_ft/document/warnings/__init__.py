@@ -18,7 +18,8 @@ def warnings(document: Entry, vocabulary: Vocabulary, path: Track) -> list[Warni
     """The warnings by kind, then in the plan's order; needs sources, estimate and track."""
     case = Case(document, path, vocabulary)
     found = [one for check in (CHECKS if case.tasks else EMPTY) for one in check(case)]
-    if any(one["kind"] == "value-lost" for one in found):
+    unplaced = (case.wants(at.start) and not case.plan.has(at) for at in case.positions)
+    if any(one["kind"] == "value-lost" for one in found) or any(unplaced):
         found += values.worked_out(case)
     # Two of one id say the same: the first stays.
     unique = {one["id"]: one for one in reversed(found)}

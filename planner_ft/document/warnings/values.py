@@ -127,7 +127,9 @@ def _has_no_unit(evidence: Evidence, said: Facts) -> bool:
 
 
 def worked_out(case: Case) -> Iterator[Warning]:
-    """Places that are only worked out: in a plan that has lost a value they are hardly meant."""
+    """Places that are only worked out: in a plan that lacks a value or a place of its command they
+    are hardly meant.
+    """
     unknown = list(case.vocabulary.unresolved)
     for task in case.tasks:
         for name, source in task.get("sources", {}).items():

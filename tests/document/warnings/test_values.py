@@ -160,3 +160,10 @@ def test_a_coordinate_is_no_measure(command: str, told: int) -> None:
     grid = task("BathymetryGridSurvey", values, None, "Map it.")
     said = texts(document([grid], command=command), "value-not-said")
     assert sum("width" in one or "length" in one for one in said) == told
+
+
+def test_a_place_that_follows_is_named_where_a_place_is_only_told_of() -> None:
+    near = task("Transit", {"target_position": [30, 50]}, [step("GoToXY", {"x": 30, "y": 50})])
+    command = "Go to [30, 40], then 10 m further north. A boom lies from 90,0 to 90,20."
+    (found,) = texts(document([to(GO), near], command=command), "value-not-said")
+    assert "[30, 50], which is worked out" in found
