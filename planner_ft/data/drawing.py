@@ -215,6 +215,8 @@ class Drawing(render.Drawing):
         return self._worded(value, slot)
 
     def _worded(self, value: Value, slot: Slot) -> str:
+        if "figure" in slot.options:
+            return digits(value.value)
         text = value.worded(slot.options)
         return str(value.value) if text == value.text and slot.base in self.words else text
 

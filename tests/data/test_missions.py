@@ -316,6 +316,15 @@ def test_what_is_taken_back_is_said_but_not_planned():
         assert titles(tasks) == ["Transit", "KeepStation"] and ", no, " in text
 
 
+def test_a_number_is_said_without_its_unit_where_its_figure_is_asked_for():
+    for text, _tasks, expected in draws(
+        r"Hold at \[{length1 figure}, {length2 figure}\], I mean minus {length2 figure}.",
+        "KeepStation swapped(mirror_x(new_x(new_y(Home,length1),length2)))",
+    ):
+        x, y = expected["tasks"][0]["parameters"]["target_position"]
+        assert text == f"Hold at [{x}, {-y}], I mean minus {-y}."
+
+
 def test_labels_and_optional_slots_follow_their_alternative():
     seen = set()
     for text, tasks, _expected in draws(
