@@ -47,8 +47,19 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
         faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
         walls = [wall for face in faces if face for wall in _walls(face)]
         circle = reached or circle_of(task, vocabulary)
-        done.append(_Steps(task, [*known, *walls], circle, pen, faces[1]).cleared(allowed))
+        steps_of = _Steps(task, [*known, *walls], circle, pen, faces[1])
+        done.append(steps_of.cleared(allowed, _onward(following, vocabulary)))
     return done
+
+
+def _onward(task: dict[str, Any] | None, vocabulary: Vocabulary) -> list[Point]:
+    """Where the steps of the next task can be begun; empty for a mere way to somewhere."""
+    steps = task and task["title"] != vocabulary.transit and task.get("skill_sequence")
+    if not task or not steps:
+        return []
+    around = vocabulary.task[task["title"]].pattern in ROUND
+    goals = [goal_of(step, vocabulary) for step in (steps if around else steps[:1])]
+    return [point_of(goal) for goal in goals if goal]
 
 
 def _walls(face: Face) -> list[Structure]:
@@ -74,9 +85,10 @@ class _Steps:
         self.steps: list[Step] = []
         self.marks: Marks = []
 
-    def cleared(self, allowed: Allowed) -> dict[str, Any]:
+    def cleared(self, allowed: Allowed, onward: Sequence[Point]) -> dict[str, Any]:
         self.pen.begin(self.task)
-        steps, marks = self._entered(self.task["skill_sequence"], self.task.get("added", []))
+        own = self.task.get("added", [])
+        steps, marks = self._entered(self.task["skill_sequence"], own, onward)
         for number, step in enumerate(steps):
             own = [mark for mark in marks if mark["step"] == number]
             moved = self._to_standoff(step)
@@ -87,8 +99,11 @@ class _Steps:
         entry = {**self.task, "skill_sequence": self.steps}
         return {**entry, "added": self.marks} if self.marks else entry
 
-    def _entered(self, steps: list[Step], marks: Marks) -> tuple[list[Step], Marks]:
-        """Steps round a structure from the one that can be gone to first, and their marks.
+    def _entered(
+        self, steps: list[Step], marks: Marks, onward: Sequence[Point]
+    ) -> tuple[list[Step], Marks]:
+        """Steps round a structure from one that can be gone to straight, if possible so that they
+        end where the next task (`onward`) can be, and their marks.
 
         Where the task prompt names a direction, its order stands.
         """
@@ -97,17 +112,24 @@ class _Steps:
         pattern = self.pen.vocabulary.task[self.task["title"]].pattern
         if pattern not in ROUND or here is None or len(points) < max(count, 1):
             return steps, marks
-        free = [not any(one.blocks(here, goal) for one in self.known) for goal in points]
+        free = [self._is_free(here, goal) for goal in points]
+        # Behind the steps from `index` on, the vehicle is at the one before.
+        ends = [any(self._is_free(points[at - 1], goal) for goal in onward) for at in range(count)]
+        if not any(end for at, end in enumerate(ends) if free[at]):
+            ends = [True] * count
         prompt = self.task["task_prompt"]
         for one in self.known:  # "the north lighthouse" is a name
             prompt = prompt.replace(one.name, "") if one.name else prompt
-        if free[0] or not any(free) or read_bearings(prompt):
+        reached = [index for index in range(count) if free[index] and ends[index]]
+        if not reached or reached[0] == 0 or read_bearings(prompt):
             return steps, marks
-        reached = [index for index in range(count) if free[index]]
         first = min(reached, key=lambda index: math.dist(here, points[index]))
         self._mark(steps[first], "begins on the near side")
         moved = [{**mark, "step": (mark["step"] - first) % count} for mark in marks]
         return [*steps[first:], *steps[:first]], moved
+
+    def _is_free(self, start: Point, goal: Point) -> bool:
+        return not any(one.blocks(start, goal) for one in self.known)
 
     def _to_standoff(self, step: Step) -> Step:
         """The step; one that goes to a structure itself ends on its stand-off, on the way in or

@@ -75,6 +75,7 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             named[at] = values.get("object", "")
     last, excluded, stated = vocabulary.home, {vocabulary.home}, dict[Point, list[float]]()
     told = " ".join([document["command"], *(task["task_prompt"] for task in document["tasks"])])
+    spoken = list(named_places(frame_of(document).spoken, vocabulary))
     chart = document.get("structures", {}).items()
     charted = {point_of(at) for name, at in chart if name.casefold() not in told.casefold()}
     for task in document["tasks"]:
@@ -90,7 +91,8 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             if math.dist((beside.x, beside.y), place) < SAME
         ]
         over = known.pattern in OVER and place not in charted
-        upright = known.pattern != LINE and any(stands(one, vocabulary) for one in things)
+        said = [words for words, at in spoken if math.dist((at.x, at.y), place) < SAME]
+        upright = known.pattern != LINE and any(stands(one, vocabulary) for one in things + said)
         if known.docks or (over and not upright):
             excluded.add(place)
         if known.pattern in ROUND:

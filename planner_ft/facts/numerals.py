@@ -65,6 +65,8 @@ class Row:
                 row.tokens[index - 1 : index + 1] = [Token("rightangle", start, end)]
             elif (before, word) == ("every", "other") and len(following) > 2 and following in UNITS:
                 row._write(index, "two")
+            elif word.endswith("'s") and word[:-2] in UNITS:  # "one minute's hold"
+                row._write(index, word[:-2])
         return row
 
     def mended(self, until: int, choice: int = 0, *, numerals: bool = True) -> Row:

@@ -79,7 +79,9 @@ def test_a_thing_of_the_command_is_one_where_the_plan_goes_to_it_without_its_nam
     plan = document(tasks, command=command)
     assert nearest(plan, [100, 0]) >= 9.5
     grid = task("BathymetryGridSurvey", {"center": [100, 0], "width": 9, "length": 9}, None)
-    assert not structures(document([grid], command="Map round the platform at [100, 0]."), USV)
+    assert not structures(document([grid], command="Map round the wreck at [100, 0]."), USV)
+    (found,) = structures(document([grid], command="Map round the platform at [100, 0]."), USV)
+    assert found.name == "the platform"
 
 
 @pytest.mark.parametrize(

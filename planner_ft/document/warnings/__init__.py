@@ -58,6 +58,8 @@ CHECKS: tuple[Check, ...] = (
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     asked.once_for_all,
     route.performed,
+    *(places.unmoved, places.round_home, places.begun_otherwise, picked.only_there),
+    *(said.intervals, said.endless),
     *(said.measures, said.corrected, said.unclear, said.bare_numbers, said.clock_times),
     *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
     *(places.positions, said.limits, said.repeats, said.devices, places.laid_otherwise),

@@ -153,7 +153,9 @@ Check = Callable[[Case], Iterator[Warning]]
 
 
 class PlanValues:
-    """The values of a plan: of tasks with their skills, of limits, and places in texts."""
+    """The values of a plan: of tasks with their skills, of limits, and places in texts. `gone` are
+    its waypoints in order.
+    """
 
     def __init__(self, document: Entry, command: Input) -> None:
         tasks, limits = document["tasks"], document.get("limits", ())
@@ -161,6 +163,7 @@ class PlanValues:
         given = [owner["parameters"] for owner in (*tasks, *skills)]
         own = [value for values in given for value in values.values()]
         gone = [(values["x"], values["y"]) for values in given if {"x", "y"} <= values.keys()]
+        self.gone = gone
         self.limits = [value for limit in limits for value in limit["values"].values()]
         # Coordinates are places, not numbers: 40 east of one and 40 north of another say no place.
         self.numbers = [

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
-from planner_ft.document.structures import bars, structures
-from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.structures import OVER, ROUND, bars, structures
+from planner_ft.document.track import Point, bearing, place_of, shown
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
@@ -16,6 +16,7 @@ from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
+HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
 
@@ -262,6 +263,26 @@ def _is_named(words: str, thing: str) -> bool:
     return one == other
 
 
+def round_home(case: Case) -> Iterator[Warning]:
+    """A task that goes round home, or over it, where the command has no numbers for home."""
+    home = case.vocabulary.home
+    if not any(same_place(place, home) for place in case.positions):
+        for task in case.tasks:
+            pattern = case.vocabulary.task[task["title"]].pattern
+            if pattern in (*ROUND, *OVER) and place_of(task, case.vocabulary) == home:
+                yield warning("value-not-said", "asked", task, about="asked")
+
+
+def unmoved(case: Case) -> Iterator[Warning]:
+    """A place that is gone to, and words that have the vehicle stay where it is."""
+    home = case.vocabulary.home
+    away = [one for one in case.tasks if place_of(one, case.vocabulary) not in (None, home)]
+    for clause in case.clauses if away else ():
+        if case.words["unmoved"].search(clause.text) and not clause.corrected:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("contradiction", "unmoved", away[0], about="unmoved", words=words)
+
+
 def laid_otherwise(case: Case) -> Iterator[Warning]:
     """A corner or a direction of the lines of a survey that no task prompt has."""
     over = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern == "lawnmower"]
@@ -270,4 +291,23 @@ def laid_otherwise(case: Case) -> Iterator[Warning]:
     for clause in case.clauses if over else ():
         laid = case.words["laid"].search(clause.text)
         if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
+            yield lost(clause.text.strip(" ,;."))
+
+
+def begun_otherwise(case: Case) -> Iterator[Warning]:
+    """A side on which a ring of waypoints is to begin, and a plan of which none does."""
+    rings = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern in ROUND]
+    firsts = [(place_of(one, case.vocabulary), case.path.of(one["id"], 0)) for one in rings]
+    sides = [bearing(at, legs[0].points[-1]) for at, legs in firsts if at and legs]
+    for clause in case.clauses if sides else ():
+        begun = case.words["begins"].search(clause.text)
+        behind = clause.text[begun.end() :].rstrip(" ,;.") if begun else ""
+        # "Start at the north buoy" names no side.
+        named = [
+            one.value
+            for one in read_bearings(behind)
+            if case.words["side"].fullmatch(behind[one.end :].strip() or "side")
+        ]
+        turns = [abs((one - side + 180) % 360 - 180) for one in named for side in sides]
+        if turns and min(turns) > HALF_SIDE and not clause.corrected:
             yield lost(clause.text.strip(" ,;."))

@@ -6,10 +6,12 @@ Facts of the text are compared with values of the plan; which words limit or rep
 
 import functools
 import itertools
+import math
 import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
+from planner_ft.document.track import place_of
 from planner_ft.document.warnings.case import (
     LONGER,
     Case,
@@ -37,6 +39,9 @@ NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30  # characters between a value and its correction
 SENTENCE = re.compile(r"^|[.!?;]\s")
+WAITING = ("hold", "follow", "drift", "visual")
+"""Patterns of tasks that can go on for as long as nobody says otherwise."""
+EVERY = re.compile(r"\b(?:every|each) $", re.IGNORECASE)
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
 
@@ -76,6 +81,18 @@ def measures(case: Case) -> Iterator[Warning]:
             yield lost(text[wholes[0].start : wholes[0].end])
         else:
             instead.remove(other)
+
+
+def intervals(case: Case) -> Iterator[Warning]:
+    """"Every 100 m", where no value of a task or a skill is that, and no two waypoints behind each
+    other lie so far apart.
+    """
+    apart = [math.dist(*pair) for pair in itertools.pairwise(case.plan.gone)]
+    for number in (one for one in case.numbers if one.unit == "m" and case.wants(one.start)):
+        every = EVERY.search(case.text[: number.start])
+        known = [*case.plan.numbers, *apart]
+        if every and not any(near(number.value, other) for other in known):
+            yield lost(case.text[every.start() : number.end])
 
 
 def corrected(case: Case) -> Iterator[Warning]:
@@ -154,6 +171,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         instead = clause and replacing.match(clause.text.strip(" ,"))
         last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
         behind = _ends_with(replacing, before) or number in last_counted
+        behind = behind or _shots(number, case)
         if last and number.value >= 2:
             behind = behind or _ends_with(case.words["measured"], before)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
@@ -161,6 +179,13 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
             known = any(near(number.value, other) for other in case.plan.anywhere)
         if (bare or instead or behind) and not known:
             yield lost(case.text[number.start : number.end])
+
+
+def _shots(number: Number, case: Case) -> bool:
+    """Whether a number counts the pictures of something that the plan has in sectors."""
+    around = any(case.vocabulary.task[one["title"]].pattern == "sectors" for one in case.tasks)
+    behind = case.text[number.end :].lstrip(" -")
+    return around and case.words["shots"].match(behind) is not None
 
 
 @functools.lru_cache(maxsize=16)
@@ -253,11 +278,24 @@ def _ends_with(words: re.Pattern[str], text: str) -> bool:
     return any(match.end() == len(rest) for match in words.finditer(rest))
 
 
+def endless(case: Case) -> Iterator[Warning]:
+    """Words for going on without end, where the last thing that the plan does comes to an end."""
+    known, home = case.vocabulary.task, case.vocabulary.home
+    own = [one for one in case.tasks if place_of(one, case.vocabulary) != home]
+    for clause in case.clauses if own and known[own[-1]["title"]].pattern not in WAITING else ():
+        if any(clause.spans(case.words["endless"])) and not clause.corrected:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("repeat-lost", "endless", about=words.casefold(), words=words)
+            break
+
+
 def repeats(case: Case) -> Iterator[Warning]:
     """Counts of rounds or times that nothing in the plan is done so often."""
     text, found = case.text, dict[int, tuple[float, int]]()
     for number in case.numbers:
-        if number.unit is None and number.value >= 2 and number.value.is_integer():
+        inside = any(place.start <= number.start < place.end for place in case.positions)
+        counts = number.unit is None and number.value >= 2 and number.value.is_integer()
+        if counts and not inside:
             first = itertools.islice(WORD.finditer(text, number.end), 2)
             counted = (case.words["repeats"].match(text, word.start()) for word in first)
             if behind := next(filter(None, counted), None):
