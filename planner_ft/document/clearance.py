@@ -25,6 +25,7 @@ from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
 from planner_ft.vocabulary import Entry, Vocabulary
 
 MOST_ROUNDS = 30
+KEEPS_CLEAR = "keeps clear of a structure"
 Step = dict[str, Any]
 Marks = list[dict[str, Any]]
 
@@ -94,7 +95,7 @@ class _Steps:
             moved = self._to_standoff(step)
             goal, here = self._goal(moved), self.pen.here
             for point in way_round(here, goal, self.known, allowed) if here and goal else ():
-                self._add(self._with_goal(step, point), own, "keeps clear of a structure")
+                self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
             self._add(moved, own, "ends at the stand-off" if moved is not step else "")
         entry = {**self.task, "skill_sequence": self.steps}
         return {**entry, "added": self.marks} if self.marks else entry

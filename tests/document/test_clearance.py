@@ -558,3 +558,37 @@ def test_the_face_of_a_pass_is_gone_round_also_where_it_is_as_short_as_a_point()
     assert len(_walls(Face(((0, 0), (420, 0)), 90, 7))) == 61
     assert len(_walls(Face(((0, 0), (421, 0)), 90, 7))) == 0
     assert len(_walls(Face(((0, 0), (10, 0)), 90, 0.1))) == 21
+
+
+def square(x: float, y: float, radius: float) -> dict[str, Any]:
+    sides = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]
+    steps = [go(x + radius * east, y + radius * north) for east, north in sides]
+    given = {"target_position": [x, y], "radius": radius}
+    return task("SurveyTarget", given, steps, f"Survey the pile at [{x}, {y}].")
+
+
+@pytest.mark.parametrize("places", [[(60, 0), (120, 0)], [(40, 40), (110, 40), (75, 110)]])
+def test_rings_behind_each_other_end_where_the_next_one_can_be_gone_to(
+    places: list[tuple[float, float]],
+) -> None:
+    plan = document([square(*at, 12) for at in places])
+    assert [len(one["skill_sequence"]) for one in plan["tasks"]] == [8] * len(places)
+    assert not [one for one in plan["warnings"] if one["kind"] == "structure-close"]
+
+
+def test_a_ring_of_which_no_end_is_free_is_begun_as_before() -> None:
+    told = "Survey the pile at [60, 0]. Keep at least 40 m from the rig at [120, 0]."
+    rig = task("SurveyTarget", {"target_position": [120, 0], "radius": 12}, [go(108, 0)], told)
+    plan = document([square(60, 0, 12), rig])
+    assert len(plan["tasks"][0]["skill_sequence"]) == 8
+
+
+def test_a_beacon_that_the_command_puts_in_the_middle_of_a_grid_is_kept_clear_of() -> None:
+    given = {"center": [100, 100], "width": 60, "length": 60, "spacing": 30}
+    lanes = [(70, 70), (70, 130), (100, 130), (100, 70), (130, 70), (130, 130)]
+    told = "Survey the depths around [100, 100]."
+    grid = task("BathymetryGridSurvey", given, [go(*at) for at in lanes], told)
+    plan = document([grid], command="Map 60 x 60 round 100,100, mind the beacon at 100,100.")
+    assert nearest(plan, [100, 100]) >= 9.5
+    plan = document([grid], command="Map 60 x 60 round 100,100, mind the wreck at 100,100.")
+    assert waypoints(plan) == [list(at) for at in lanes]

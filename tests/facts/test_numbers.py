@@ -20,6 +20,7 @@ def states(text: str, value: float, unit: str | None) -> str:
 SAID = """
     {four minutes = 240 s} | {a kilometre = 1000 m} | for {a minute and a half = 90 s}
     {two and a half minutes = 150 s} | {half an hour = 1800 s}
+    {one minute's = 60 s} hold, a {two-hour = 7200 s} watch
     {three quarters of an hour = 2700 s} | {one point two kilometres = 1200 m}
     {one decimal five kilometres = 1500 m} | {two hundred and fifty metres = 250 m}
     heading {one two zero = 120 *} | {half a metre per second = 0.5 m/s}

@@ -142,7 +142,10 @@ def _taken_back_as_it(case: Case) -> Iterator[tuple[Ask, str]]:
     )
     for clause in case.typed:
         ruled_out = case.words["exclusion"].search(clause.text)
-        if ruled_out and IT.fullmatch(clause.text, ruled_out.end()):
+        # "For an hour, no, scratch that, forty minutes" takes the value back.
+        behind = read_numbers(case.command[clause.end : clause.end + NEAR].lstrip(" ,"))
+        valued = any(number.start == 0 for number in behind)
+        if ruled_out and IT.fullmatch(clause.text, ruled_out.end()) and not valued:
             before = [(start, at) for start, at in said if start < clause.start]
             between = case.command[before[-1][0] : clause.start] if before else ""
             # "Take a panorama. No, forget that": the words begin the next sentence.

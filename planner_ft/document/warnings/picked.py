@@ -22,7 +22,10 @@ ORDINAL = re.compile(
 """An ordinal that stands for a place, and the noun behind it."""
 COUNTS = {None: 1, "two": 2, "three": 3}
 ONLY = re.compile(r"\b(?:only|just|alone|nowhere else)\b", re.IGNORECASE)
-KEPT = re.compile(r"\W*(?:but )?(?:only|just|except|save) ", re.IGNORECASE)
+KEPT = re.compile(
+    r"\W*(?:but )?(?:only|just|except|save) (?:while|when|during|at|on|in|from|as|once|between)\b",
+    re.IGNORECASE,
+)
 Places = Sequence[Position]
 Done = list[tuple[Point, Entry]]  # the tasks with the places where they are
 

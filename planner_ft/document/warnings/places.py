@@ -4,10 +4,11 @@ import itertools
 import re
 from collections.abc import Iterator
 
+from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import OVER, ROUND, bars, structures
-from planner_ft.document.track import Point, bearing, place_of, shown
+from planner_ft.document.track import Leg, Point, bearing, place_of, shown
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
@@ -294,11 +295,18 @@ def laid_otherwise(case: Case) -> Iterator[Warning]:
             yield lost(clause.text.strip(" ,;."))
 
 
+def _first_leg(task: Entry, case: Case) -> Leg | None:
+    """The leg to the first waypoint of a task's own."""
+    added = {mark["step"] for mark in task.get("added", ()) if mark.get("note") == KEEPS_CLEAR}
+    legs = case.path.of(task["id"])
+    return next((leg for leg in legs if leg.step not in added and leg.points), None)
+
+
 def begun_otherwise(case: Case) -> Iterator[Warning]:
     """A side on which a ring of waypoints is to begin, and a plan of which none does."""
     rings = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern in ROUND]
-    firsts = [(place_of(one, case.vocabulary), case.path.of(one["id"], 0)) for one in rings]
-    sides = [bearing(at, legs[0].points[-1]) for at, legs in firsts if at and legs]
+    firsts = [(place_of(one, case.vocabulary), _first_leg(one, case)) for one in rings]
+    sides = [bearing(at, leg.points[-1]) for at, leg in firsts if at and leg]
     for clause in case.clauses if sides else ():
         begun = case.words["begins"].search(clause.text)
         behind = clause.text[begun.end() :].rstrip(" ,;.") if begun else ""

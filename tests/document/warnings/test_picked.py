@@ -82,3 +82,15 @@ def test_other_ordinals_and_what_is_asked_for_twice_pick_no_place(command: str) 
 def test_a_place_that_is_left_out_is_not_missing_from_its_row() -> None:
     command = "Go to 1,0, 3,0 and 5,0 in turn, skip the middle one."
     assert document([to(1), to(5)], command=command)["warnings"] == []
+
+
+def gathers(command: str, *skills: str) -> bool:
+    texts = [one["text"] for one in document([to(2, *skills)], command=command)["warnings"]]
+    return not any("no step of the plan gathers" in text for text in texts)
+
+
+def test_data_that_are_wanted_in_one_place_alone_must_be_gathered_there() -> None:
+    wanted = "Go to 2,0, no video on the way, only while you inspect."
+    assert not gathers(wanted)
+    assert gathers(wanted, "SetStreamRecording")
+    assert gathers("Go to 2,0, no video on the way, then inspect.")

@@ -211,3 +211,36 @@ def test_the_way_home_counts_from_where_the_plan_ends_and_is_named_from_a_minute
     (found,) = over(500, go((88, 0)))
     assert "for the way home" not in found
     assert over(500, go((75, 0)), go((0, 0))) == [] and len(over(501, go((75, 0)), go((0, 0)))) == 1
+
+
+# ---------------------------------------------------------------- rings
+
+
+def ring(at: tuple[float, float], first: tuple[float, float]) -> dict[str, Any]:
+    given = {"target_position": [*at], "radius": 10}
+    return task("SurveyTarget", given, [step("GoToXY", {"x": first[0], "y": first[1]})], "Survey.")
+
+
+@pytest.mark.parametrize(
+    ("words", "first", "lost"),
+    [
+        ("beginning on the north side", (60, 70), False),
+        ("beginning on the north side", (66, 70), True),
+        ("beginning on the north side", (70, 60), True),
+        ("starting north", (70, 60), True),
+        ("starting in the north-east corner", (70, 70), False),
+        ("start with the north buoy", (70, 60), False),
+    ],
+)
+def test_a_ring_begins_on_the_side_that_is_said(
+    words: str, first: tuple[float, float], lost: bool
+) -> None:
+    plan = document([ring((60, 60), first)], command=f"Survey [60, 60] at 10 m, {words}.")
+    assert bool(told(plan, "value-lost")) is lost
+
+
+def test_a_ring_round_home_wants_words_for_home() -> None:
+    plan = document([ring((0, 0), (10, 0))], command="Survey it at 10 m, then home.")
+    assert len(told(plan, "value-not-said")) == 1
+    plan = document([ring((0, 0), (10, 0))], command="Survey [0, 0] at 10 m.")
+    assert told(plan, "value-not-said") == []
