@@ -30,6 +30,7 @@ SIDE, PASS = "side_id", ("length", "distance")
 SLACK, SHARE = 0.5, 0.02
 """Metres, and the share of a length, by which waypoints may differ from it."""
 MOST_WAYPOINTS = 128
+BESIDE = 0.1  # the share of a pass by which its waypoints may lie beside its ends
 
 
 def with_pass(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
@@ -40,12 +41,22 @@ def with_pass(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) ->
     made = [goal for goal in goals if goal]
     moving = [at for at, goal in enumerate(goals) if goal]
     ends = pass_ends(task, vocabulary)
-    if not ends or len(made) not in (1, 2) or run_of(made) >= math.dist(*ends) * (1 - SHARE):
+    if not ends or len(made) not in (1, 2) or _is_pass(made, ends):
         return list(steps), Added()
-    nearer = sorted(ends, key=lambda end: math.dist(end, made[0]))
+    both = (ends, ends[::-1])
+    nearer = min(both, key=lambda pair: sum(map(math.dist, made, pair)))
     first, last = moving[0], moving[-1]
     whole = steps if last > first else [*steps[: first + 1], *steps[first:]]
     return _placed(whole, zip((first, max(last, first + 1)), nearer, strict=True), vocabulary)
+
+
+def _is_pass(made: Sequence[Point], ends: Sequence[Point]) -> bool:
+    """Whether two waypoints pass a whole face, each near one of its ends."""
+    length = math.dist(*ends)
+    beside = all(
+        min(math.dist(point, end) for end in ends) <= BESIDE * length + SLACK for point in made
+    )
+    return beside and run_of(made) >= length * (1 - SHARE)
 
 
 def with_shape(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:

@@ -39,10 +39,17 @@ def test_one_waypoint_becomes_two_and_begins_at_the_nearer_end():
     assert [len(each["perception_skills"]) for each in done] == [1, 1]
 
 
+def test_a_pass_beside_its_face_is_put_right():
+    steps = [step("GoToXY", {"x": 67, "y": y}) for y in (15, 135)]
+    done, _marks = with_pass(task(), steps, USV)
+    assert waypoints(done) == [(67, -45), (67, 75)]
+
+
 @pytest.mark.parametrize(
     ("steps", "changed"),
     [
         ([("GoToXY", 67, -45), ("GoToXY", 67, 75)], {}),
+        ([("GoToXY", 67, 85), ("GoToXY", 67, -35)], {}),
         ([("GoToXY", 67, 15)], {"side_id": "port"}),
         ([("GoToXY", 67, 15)], {"length": None}),
         ([("GoToXY", 67, 15)], {"prompt": "Run along the east side for 120 m."}),

@@ -59,6 +59,7 @@ CHECKS: tuple[Check, ...] = (
     asked.once_for_all,
     route.performed,
     *(places.unmoved, places.round_home, places.begun_otherwise, picked.only_there),
+    places.faced_otherwise,
     *(said.intervals, said.endless),
     *(said.measures, said.corrected, said.unclear, said.bare_numbers, said.clock_times),
     *(places.geographic, places.rows, places.uneven_rows, places.unvisited),

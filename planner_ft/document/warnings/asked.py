@@ -277,12 +277,13 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
     gathering = set[str]().union(*own)
     # What waits says what it will gather, and data to be sent are not gathered anew.
     waiting = [task["task_prompt"] for task in case.tasks if not task["skill_sequence"]]
-    waiting += [str(value) for task in case.tasks for value in task["parameters"].values()]
+    valued = " ".join(str(value) for task in case.tasks for value in task["parameters"].values())
     asked = [data for data in case.spoken.data if not data.ruled_out]
     for clause in (one for one in case.typed if not (one.corrected or _sends(one, case))):
         lost = [data for data in asked if not _gathered(data, gathering, waiting)]
         spans = sorted(span for data in lost for span in clause.spans(data.said))
-        words = list(dict.fromkeys(case.command[start:end] for start, end in spans))
+        said = dict.fromkeys(case.command[start:end] for start, end in spans)
+        words = [one for one in said if one.casefold() not in valued.casefold()]
         if words:
             listed, about = ", ".join(f'"{one}"' for one in words), " ".join(words).casefold()
             yield warning("data-not-planned", "nowhere", about=about, words=listed)

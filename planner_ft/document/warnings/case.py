@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.document.language import Clause, language, read_clauses
-from planner_ft.document.track import Track, place_of
+from planner_ft.document.track import Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_numbers
@@ -284,7 +284,7 @@ def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:
     for (x, y), base in itertools.product(set(map(tuple, places)), ground.places if ground else ()):
         away = x - base[0], y - base[1]
         if ground and any(away) and (ground.is_way_off((x, y), base) or away in ground.places):
-            yield from (*away, math.hypot(*away))
+            yield from (*away, math.hypot(*away), bearing(base, (x, y)))
 
 
 def same_place(place: Position, other: Sequence[float]) -> bool:

@@ -4,6 +4,7 @@ import itertools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import Point, place_of
@@ -72,7 +73,7 @@ def only_there(case: Case) -> Iterator[Warning]:
         for data in case.spoken.data if clause.excluded is not None else ():
             match = data.said.search(clause.text) if KEPT.match(behind.text) else None
             if match and data.skills and not data.skills & gathering:
-                words = {"words": f'"{match[0]}"', "about": match[0].casefold()}
+                words: dict[str, Any] = {"words": f'"{match[0]}"', "about": match[0].casefold()}
                 yield warning("data-not-planned", "nowhere", **words)
 
 

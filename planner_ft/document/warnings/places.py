@@ -17,6 +17,7 @@ from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
+NEAR_BY = 5  # characters between "facing" and a direction: "facing the north"
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
@@ -293,6 +294,16 @@ def laid_otherwise(case: Case) -> Iterator[Warning]:
         laid = case.words["laid"].search(clause.text)
         if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
             yield lost(clause.text.strip(" ,;."))
+
+
+def faced_otherwise(case: Case) -> Iterator[Warning]:
+    """A direction in which the vehicle is to look, and of which no task prompt speaks."""
+    told = {one.value for task in case.tasks for one in read_bearings(task["task_prompt"])}
+    for clause in case.clauses:
+        for start, end in clause.spans(case.words["facing"]):
+            named = [one for one in read_bearings(case.text[start : clause.end]) if one.start]
+            if named and named[0].start <= end - start + NEAR_BY and named[0].value not in told:
+                yield lost(case.text[start : start + named[0].end])
 
 
 def _first_leg(task: Entry, case: Case) -> Leg | None:

@@ -84,7 +84,7 @@ def measures(case: Case) -> Iterator[Warning]:
 
 
 def intervals(case: Case) -> Iterator[Warning]:
-    """"Every 100 m", where no value of a task or a skill is that, and no two waypoints behind each
+    """ "Every 100 m", where no value of a task or a skill is that, and no two waypoints behind each
     other lie so far apart.
     """
     apart = [math.dist(*pair) for pair in itertools.pairwise(case.plan.gone)]

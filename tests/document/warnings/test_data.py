@@ -35,6 +35,16 @@ def test_words_for_data_that_reach_no_skill_are_named_once_per_clause() -> None:
     assert warned(command, "SetStreamRecording", "GetSeabedDepth") == []
 
 
+def test_data_that_are_sent_are_not_those_that_are_gathered_now() -> None:
+    names = {"target_list": ["video"]}
+    send = task("SmartDataHarvest", names, [step("StationKeep")], "Upload the video.")
+    go = task("Transit", {"target_position": [40, 20]}, [step("GoToXY", {"x": 40, "y": 20})], "Go.")
+    command = "Film the way to [40, 20], then send me the video."
+    made = document([go, send], command=command)
+    texts = [item["text"] for item in made["warnings"] if item["kind"] == "data-not-planned"]
+    assert texts == ['The command speaks of "Film"; no step of the plan gathers that.']
+
+
 @pytest.mark.parametrize(
     "command",
     [
