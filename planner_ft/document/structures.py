@@ -31,7 +31,7 @@ SAME = 0.6  # metres within which a waypoint is a structure itself
 MARGIN = 0.5
 """Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
 MOST_PARTS = 60  # circles by which a line is kept clear of
-CORNERS = 8  # waypoints of a full way round a structure
+CORNERS = 12  # waypoints of a full way round a structure
 MOVING = ("go", "arc")
 Allowed = Callable[[Point, Point], bool]  # whether a straight leg may be gone
 
