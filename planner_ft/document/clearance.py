@@ -18,7 +18,7 @@ from planner_ft.document.structures import (
     runs_along,
     structures,
 )
-from planner_ft.document.track import Pen, Point, circle_of, point_of
+from planner_ft.document.track import Pen, Point, circle_of, place_of, point_of
 from planner_ft.facts.geometry import offset
 from planner_ft.facts.places import read_bearings
 from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
@@ -114,6 +114,10 @@ class _Steps:
         if pattern not in ROUND or here is None or len(points) < max(count, 1):
             return steps, marks
         free = [self._is_free(here, goal) for goal in points]
+        if not any(free):  # behind others, the near side is the one that faces the vehicle
+            center = place_of(self.task, self.pen.vocabulary)
+            own = [one for one in self.known if center and math.dist(one.position, center) <= SAME]
+            free = [not any(one.blocks(here, goal) for one in own) for goal in points]
         # Behind the steps from `index` on, the vehicle is at the one before.
         ends = [any(self._is_free(points[at - 1], goal) for goal in onward) for at in range(count)]
         if not any(end for at, end in enumerate(ends) if free[at]):

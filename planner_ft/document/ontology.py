@@ -47,6 +47,8 @@ _THERE = re.compile(r"\bthere(?:['’]s|\s+(?:is|are|was|were))\s+", re.IGNORECA
 _ALONG = re.compile(r"\balong\s(?:[\w-]+\s){0,3}$", re.IGNORECASE)
 _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNORECASE)
 """What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
+_SIZE = re.compile(r"\s+of\s+\d[\d.,]*\s?[a-z]+\b")
+_MARK = re.compile(r"\s+(?:[A-Z]|\d{1,3})(?=\s+at\b)")
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 
@@ -112,8 +114,8 @@ def named_places(
     nor does the `thing` that is looked for.
     """
     spoken = language(vocabulary)
-    bare = [match.span() for match in spoken.words["standing"].finditer(text)]
-    bare += [match.span() for match in pattern([thing] if thing else []).finditer(text)]
+    bare = [(at, _numbered(text, end)) for at, end in _spans(spoken.words["standing"], text)]
+    bare += _spans(pattern([thing] if thing else []), text)
     named = [*sorted(bare), *sorted([*_noun_phrases(text, spoken), *_names(text, spoken)])]
     own = {match.end() for match in spoken.words["own"].finditer(text)}
     things = [
@@ -129,6 +131,16 @@ def named_places(
         words = _words_beside(text, place, things) if place.certain else ""
         if words := words or several.pop(place.start, ""):
             yield words, place
+
+
+def _numbered(text: str, end: int) -> int:
+    """The end of a noun with the letter or number behind it: "pile A at"."""
+    mark = _MARK.match(text, end)
+    return mark.end() if mark else end
+
+
+def _spans(words: re.Pattern[str], text: str) -> list[Span]:
+    return [match.span() for match in words.finditer(text)]
 
 
 def named_lines(
@@ -222,12 +234,14 @@ def _phrase_end(text: str, start: int, spoken: Language) -> int | None:
 
 
 def _linked_end(text: str, end: int, spoken: Language) -> int:
-    """The end of a phrase with the words that "of" or "with" adds to it."""
+    """The end of a phrase with the words that "of" or "with" adds to it: "with a hull of 9 m"."""
     link = _LINK.match(text, end)
     if link is None:
         return end
     determiner = spoken.words["determiner"].match(text, link.end())
-    return _phrase_end(text, determiner.end() if determiner else link.end() - 1, spoken) or end
+    end = _phrase_end(text, determiner.end() if determiner else link.end() - 1, spoken) or end
+    size = _SIZE.match(text, end)
+    return size.end() if size else end
 
 
 def _names(text: str, spoken: Language) -> Iterator[Span]:

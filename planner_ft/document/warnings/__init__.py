@@ -65,7 +65,14 @@ CHECKS: tuple[Check, ...] = (
     *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
     *(places.positions, said.limits, said.repeats, said.devices, places.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
-    *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsaid_skills),
+    *(
+        values.unread,
+        values.unsaid,
+        values.unsaid_limits,
+        values.unheard,
+        values.unsought,
+        values.unsaid_skills,
+    ),
     *(places.done_again, places.done_twice, places.gone_to_bars, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""

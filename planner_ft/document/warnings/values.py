@@ -75,6 +75,17 @@ def unsaid_limits(case: Case) -> Iterator[Warning]:
             yield warning("value-not-said", "limit", about=text.casefold(), limit=text)
 
 
+def unsought(case: Case) -> Iterator[Warning]:
+    """Searches for what no task needs, where no word asks for one."""
+    places = [one["name"] for one in case.document.get("open_places", ())]
+    places = [name.casefold() for name in (*places, *case.document.get("located", {}))]
+    for task in () if case.words["sought"].search(case.command) else case.tasks:
+        targets = [str(value).casefold() for value in task["parameters"].values()]
+        needed = any(name in target or target in name for target in targets for name in places)
+        if task["title"] == case.vocabulary.locate and not needed:
+            yield warning("value-not-said", "asked", task, about="asked")
+
+
 def unheard(case: Case) -> Iterator[Warning]:
     """Words of proposed task prompts that are not known, nor in the command or the definition of
     the task: they may name another thing.
