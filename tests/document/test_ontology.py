@@ -218,6 +218,15 @@ def test_things_beside_positions_are_no_places_of_the_water() -> None:
     assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8)]
 
 
+def test_numbered_and_sized_things_are_named_and_stations_of_something() -> None:
+    command = (
+        "Pile A at [1, 2], a pier with a width of 9 m at [3, 4], the pumping station at [5, 6],"
+        " the tide sets at [7, 8], the station at [9, 10]."
+    )
+    found = [words for words, _place in named_places(command, USV)]
+    assert found == ["Pile A", "a pier with a width of 9 m", "the pumping station"]
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

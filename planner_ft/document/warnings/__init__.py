@@ -6,7 +6,7 @@ A check is a function from a `Case` to the warnings that it finds.
 from collections.abc import Iterator
 
 from planner_ft.document.track import Track
-from planner_ft.document.warnings import asked, picked, places, route, said, values
+from planner_ft.document.warnings import asked, directions, picked, places, route, said, values
 from planner_ft.document.warnings.case import KINDS, NOTES, SERIOUS, Case, Check, Warning, warning
 from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.vocabulary import Entry, Vocabulary
@@ -58,22 +58,15 @@ CHECKS: tuple[Check, ...] = (
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     asked.once_for_all,
     route.performed,
-    *(places.unmoved, places.round_home, places.begun_otherwise, picked.only_there),
-    places.faced_otherwise,
-    *(said.intervals, said.endless),
+    *(places.unmoved, places.round_home, picked.only_there, said.intervals, said.endless),
+    *(directions.begun_otherwise, directions.faced_otherwise),
     *(said.measures, said.corrected, said.unclear, said.bare_numbers, said.clock_times),
     *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
-    *(places.positions, said.limits, said.repeats, said.devices, places.laid_otherwise),
+    *(places.positions, said.limits, said.repeats, said.devices, directions.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
-    *(
-        values.unread,
-        values.unsaid,
-        values.unsaid_limits,
-        values.unheard,
-        values.unsought,
-        values.unsaid_skills,
-    ),
-    *(places.done_again, places.done_twice, places.gone_to_bars, picked.elsewhere),
+    *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsought),
+    *(values.unsaid_skills, places.done_again, places.done_twice, places.gone_to_bars),
+    *(places.gone_to_told, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

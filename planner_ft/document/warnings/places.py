@@ -4,21 +4,19 @@ import itertools
 import re
 from collections.abc import Iterator
 
-from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import OVER, ROUND, bars, structures
-from planner_ft.document.track import Leg, Point, bearing, place_of, shown
+from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
-from planner_ft.facts.places import lone_coordinates, read_bearings, read_geographic, rows_of
+from planner_ft.facts.places import lone_coordinates, read_geographic, rows_of
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
-NEAR_BY = 5  # characters between "facing" and a direction: "facing the north"
-HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
+OF = re.compile(r"\s+(?:of|with)\b")
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
 
@@ -72,6 +70,20 @@ def gone_to_bars(case: Case) -> Iterator[Warning]:
         at = place_of(task, case.vocabulary)
         if task["title"] == case.vocabulary.transit and at in ends:
             yield warning("value-not-said", "asked", task, about="asked")
+
+
+def gone_to_told(case: Case) -> Iterator[Warning]:
+    """Ways to a thing of which the command only tells, once, and at which nothing is done."""
+    rows = [place for row in case.rows for place in row]
+    named = [one for one in named_places(case.text, case.vocabulary) if one[1] not in rows]
+    for task, following in itertools.zip_longest(case.tasks, case.tasks[1:]):
+        at, transit = place_of(task, case.vocabulary), task["title"] == case.vocabulary.transit
+        stays = following is None or place_of(following, case.vocabulary) in (None, at)
+        for words, place in named if transit and at and not stays else ():
+            noun = re.escape(OF.split(words)[0].split()[-1])
+            once = len(re.findall(rf"(?i)\b{noun}\b", case.text)) == 1
+            if once and same_place(place, at or ()) and _is_told_of(place, case):
+                yield warning("value-not-said", "asked", task, about="asked")
 
 
 def geographic(case: Case) -> Iterator[Warning]:
@@ -283,50 +295,3 @@ def unmoved(case: Case) -> Iterator[Warning]:
         if case.words["unmoved"].search(clause.text) and not clause.corrected:
             words = quoted(clause.text.strip(" ,;."))
             yield warning("contradiction", "unmoved", away[0], about="unmoved", words=words)
-
-
-def laid_otherwise(case: Case) -> Iterator[Warning]:
-    """A corner or a direction of the lines of a survey that no task prompt has."""
-    over = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern == "lawnmower"]
-    if any(read_bearings(task["task_prompt"]) for task in over):
-        return
-    for clause in case.clauses if over else ():
-        laid = case.words["laid"].search(clause.text)
-        if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
-            yield lost(clause.text.strip(" ,;."))
-
-
-def faced_otherwise(case: Case) -> Iterator[Warning]:
-    """A direction in which the vehicle is to look, and of which no task prompt speaks."""
-    told = {one.value for task in case.tasks for one in read_bearings(task["task_prompt"])}
-    for clause in case.clauses:
-        for start, end in clause.spans(case.words["facing"]):
-            named = [one for one in read_bearings(case.text[start : clause.end]) if one.start]
-            if named and named[0].start <= end - start + NEAR_BY and named[0].value not in told:
-                yield lost(case.text[start : start + named[0].end])
-
-
-def _first_leg(task: Entry, case: Case) -> Leg | None:
-    """The leg to the first waypoint of a task's own."""
-    added = {mark["step"] for mark in task.get("added", ()) if mark.get("note") == KEEPS_CLEAR}
-    legs = case.path.of(task["id"])
-    return next((leg for leg in legs if leg.step not in added and leg.points), None)
-
-
-def begun_otherwise(case: Case) -> Iterator[Warning]:
-    """A side on which a ring of waypoints is to begin, and a plan of which none does."""
-    rings = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern in ROUND]
-    firsts = [(place_of(one, case.vocabulary), _first_leg(one, case)) for one in rings]
-    sides = [bearing(at, leg.points[-1]) for at, leg in firsts if at and leg]
-    for clause in case.clauses if sides else ():
-        begun = case.words["begins"].search(clause.text)
-        behind = clause.text[begun.end() :].rstrip(" ,;.") if begun else ""
-        # "Start at the north buoy" names no side.
-        named = [
-            one.value
-            for one in read_bearings(behind)
-            if case.words["side"].fullmatch(behind[one.end :].strip() or "side")
-        ]
-        turns = [abs((one - side + 180) % 360 - 180) for one in named for side in sides]
-        if turns and min(turns) > HALF_SIDE and not clause.corrected:
-            yield lost(clause.text.strip(" ,;."))

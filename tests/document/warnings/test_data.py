@@ -145,6 +145,36 @@ def test_a_task_that_no_words_ask_for_is_named() -> None:
         assert [one["text"] for one in made["warnings"]].count(said) == count
 
 
+def unasked(command: str, *tasks: dict[str, Any]) -> list[str]:
+    texts = [one["text"] for one in document([*tasks], command=command)["warnings"]]
+    return [text.split(":")[0] for text in texts if "no words of the command" in text]
+
+
+def to(x: float) -> dict[str, Any]:
+    return task("Transit", {"target_position": [x, 0]}, [step("GoToXY", {"x": x, "y": 0})])
+
+
+def test_docking_drifting_and_searching_want_words_for_it() -> None:
+    dock = task("DockingApproach", {"goal_position": [60, 0]}, [step("GoToXY", {"x": 60, "y": 0})])
+    assert unasked("Go to [9, 0]. A rig stands at [60, 0].", to(9), dock)
+    assert not unasked("Go to [9, 0], then moor at [60, 0].", to(9), dock)
+    drift = task("DriftAudit", {"duration": 60}, [step("DriftWithCurrent", {"time": 60})])
+    assert unasked("The drill needs you at [9, 0] for a minute.", to(9), drift)
+    assert not unasked("Float at [9, 0] for a minute.", to(9), drift)
+    search = task("SearchAndDetect", {"target_description": "contract"}, [step("StationKeep")])
+    assert unasked("For the contract, go to [9, 0].", search, to(9))
+    assert not unasked("Find the contract, go to [9, 0].", search, to(9))
+    there = task("Transit", {"target_position": [-99, -99]}, None, "Go to the contract.")
+    assert not unasked("Go to the contract.", search, there)
+
+
+def test_a_way_to_a_thing_that_is_only_told_of_wants_words_for_it() -> None:
+    told = "A concrete pier with a radius of 12 m stands at [60, 0]; get yourself to [120, 0]."
+    assert unasked(told, to(60), to(120)) == ["Task 1, Transit"]
+    assert unasked(told, to(120)) == []
+    assert unasked(f"{told} Look at the pier.", to(60), to(120)) == []
+
+
 @pytest.mark.parametrize(("skills", "count"), [((), 1), (("SetStreamRecording",), 0)])
 def test_data_until_the_vehicle_is_back_are_gathered_on_every_way(
     skills: tuple[str, ...], count: int

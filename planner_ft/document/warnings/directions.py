@@ -1,0 +1,62 @@
+"""Directions of the command that the plan has not: where a survey begins, how its lines lie, where
+the vehicle looks.
+"""
+
+from collections.abc import Iterator
+
+from planner_ft.document.clearance import KEEPS_CLEAR
+from planner_ft.document.structures import ROUND
+from planner_ft.document.track import Leg, bearing, place_of
+from planner_ft.document.warnings.case import Case, Warning, lost
+from planner_ft.facts.places import read_bearings
+from planner_ft.vocabulary import Entry
+
+NEAR_BY = 5  # characters between "facing" and a direction: "facing the north"
+HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
+
+
+def laid_otherwise(case: Case) -> Iterator[Warning]:
+    """A corner or a direction of the lines of a survey that no task prompt has."""
+    over = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern == "lawnmower"]
+    if any(read_bearings(task["task_prompt"]) for task in over):
+        return
+    for clause in case.clauses if over else ():
+        laid = case.words["laid"].search(clause.text)
+        if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
+            yield lost(clause.text.strip(" ,;."))
+
+
+def faced_otherwise(case: Case) -> Iterator[Warning]:
+    """A direction in which the vehicle is to look, and of which no task prompt speaks."""
+    told = {one.value for task in case.tasks for one in read_bearings(task["task_prompt"])}
+    for clause in case.clauses:
+        for start, end in clause.spans(case.words["facing"]):
+            named = [one for one in read_bearings(case.text[start : clause.end]) if one.start]
+            if named and named[0].start <= end - start + NEAR_BY and named[0].value not in told:
+                yield lost(case.text[start : start + named[0].end])
+
+
+def _first_leg(task: Entry, case: Case) -> Leg | None:
+    """The leg to the first waypoint of a task's own."""
+    added = {mark["step"] for mark in task.get("added", ()) if mark.get("note") == KEEPS_CLEAR}
+    legs = case.path.of(task["id"])
+    return next((leg for leg in legs if leg.step not in added and leg.points), None)
+
+
+def begun_otherwise(case: Case) -> Iterator[Warning]:
+    """A side on which a ring of waypoints is to begin, and a plan of which none does."""
+    rings = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern in ROUND]
+    firsts = [(place_of(one, case.vocabulary), _first_leg(one, case)) for one in rings]
+    sides = [bearing(at, leg.points[-1]) for at, leg in firsts if at and leg]
+    for clause in case.clauses if sides else ():
+        begun = case.words["begins"].search(clause.text)
+        behind = clause.text[begun.end() :].rstrip(" ,;.") if begun else ""
+        # "Start at the north buoy" names no side.
+        named = [
+            one.value
+            for one in read_bearings(behind)
+            if case.words["side"].fullmatch(behind[one.end :].strip() or "side")
+        ]
+        turns = [abs((one - side + 180) % 360 - 180) for one in named for side in sides]
+        if turns and min(turns) > HALF_SIDE and not clause.corrected:
+            yield lost(clause.text.strip(" ,;."))
