@@ -3,6 +3,7 @@
 A missing element becomes a question to the operator and blocks nothing: most commands lack some.
 """
 
+import functools
 import itertools
 import re
 from collections.abc import Container, Iterable, Iterator
@@ -106,13 +107,18 @@ def pieces(text: str, longest: int = LONGEST_PIECE) -> Iterator[tuple[int, str]]
     yield start, text[start:]
 
 
+@functools.lru_cache(maxsize=1024)
 def named_places(
     text: str, vocabulary: Vocabulary, thing: str = ""
-) -> Iterator[tuple[str, Position]]:
+) -> tuple[tuple[str, Position], ...]:
     """(words, position) of things beside certain positions: no waypoints and other places. "The
     cages at" names all positions of the row behind it. What stands in the water needs no article,
     nor does the `thing` that is looked for.
     """
+    return tuple(_named_places(text, vocabulary, thing))
+
+
+def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tuple[str, Position]]:
     spoken = language(vocabulary)
     bare = [(at, _numbered(text, end)) for at, end in _spans(spoken.words["standing"], text)]
     bare += _spans(pattern([thing] if thing else []), text)

@@ -75,7 +75,7 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             named[at] = values.get("object", "")
     last, excluded, stated = vocabulary.home, {vocabulary.home}, dict[Point, list[float]]()
     told = " ".join([document["command"], *(task["task_prompt"] for task in document["tasks"])])
-    spoken = list(named_places(frame_of(document).spoken, vocabulary))
+    spoken = named_places(frame_of(document).spoken, vocabulary)
     chart = document.get("structures", {}).items()
     charted = {point_of(at) for name, at in chart if name.casefold() not in told.casefold()}
     for task in document["tasks"]:
