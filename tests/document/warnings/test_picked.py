@@ -66,6 +66,11 @@ def test_what_is_done_elsewhere_than_at_the_place_that_is_picked_is_a_contradict
     assert len(said(command, *wrong)) == 1
 
 
+def test_one_of_several_tasks_at_places_that_are_left_out_is_named() -> None:
+    found = said("Visit 2,0, 4,0 and 6,0. Skip the last two.", to(2), to(4), to(6))
+    assert len(found) == 1 and "task 2" in found[0]
+
+
 @pytest.mark.parametrize(
     "command",
     [

@@ -62,6 +62,7 @@ def off(metres: float, *points: tuple[float, float]) -> list[str]:
     """What is told of a limit around [50, 0] where no way round it is looked for."""
     plan = document([go(*points)], constraints=[WRECK.format(metres)])
     plan["tasks"][0]["skill_sequence"] = go(*points)["skill_sequence"]
+    assert told(revise(plan, USV), "structure-close") == [], "the limit is told of it"
     return [one.split(",")[1].split(": ")[1] for one in told(revise(plan, USV), "limit-broken")]
 
 
@@ -244,3 +245,11 @@ def test_a_ring_round_home_wants_words_for_home() -> None:
     assert len(told(plan, "value-not-said")) == 1
     plan = document([ring((0, 0), (10, 0))], command="Survey [0, 0] at 10 m.")
     assert told(plan, "value-not-said") == []
+
+
+def test_a_direction_that_is_faced_is_quoted() -> None:
+    hold = task("KeepStation", {"duration": 60}, [step("StationKeep", {"time": 60})])
+    plan = document([hold], command="Hold for 60 s facing the north-west, then rest.")
+    assert told(plan, "value-lost") == [
+        'The command says "facing the north-west", and no task has it.'
+    ]
