@@ -7,7 +7,8 @@ import pytest
 from planner_ft.document import apply, build, undo
 from planner_ft.document.tree import plan_tree
 from planner_ft.planning import Planner
-from planner_ft.planning.essentials import with_essentials
+from planner_ft.planning.essentials import performing, with_essentials
+from planner_ft.planning.limits import last_away, time_left
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from tests.documents import USV, document, step, task
@@ -135,3 +136,26 @@ def test_the_operator_takes_the_vehicles_skills_and_values_out() -> None:
     assert undo(undo(changed, USV), USV)["tasks"] == made["tasks"]
     with pytest.raises(PlannerError, match="no filter or perception skill GoToXY"):
         apply(made, {"kind": "drop", "task": "t1", "name": "GoToXY"}, USV)
+
+
+def test_the_ways_of_a_task_do_not_perform_it_unless_it_is_made_of_them() -> None:
+    steps = [step("GoToXY", {"x": 9, "y": 9}), step("StationKeep", {"time": 9})]
+    assert performing("KeepStation", steps, USV) == [1]
+    assert performing("SurveyTarget", steps, USV) == [0]
+
+
+def test_the_last_task_somewhere_is_found_unless_it_ends_at_home_or_at_a_berth() -> None:
+    def at(title: str, **values: object) -> dict[str, object]:
+        return {"title": title, "parameters": values}
+
+    survey = at("SurveyTarget", target_position=[9, 9])
+    report, check = at("AutoGenerateReportSummary"), at("Diagnostics")
+    assert last_away([check, survey, report], USV) is survey
+    assert last_away([survey, at("Transit", target_position=[0, 0]), report], USV) is None
+    assert last_away([survey, at("DockingApproach", goal_position=[5, 5])], USV) is None
+    assert last_away([check], USV) is None
+
+
+def test_a_time_of_return_is_a_span_or_a_time_of_day() -> None:
+    assert time_left({"within": "40 minutes"}) == 2400
+    assert time_left({"time": "16:30"}) is None

@@ -92,3 +92,24 @@ def test_what_is_made_or_not_known_for_certain_stays(task, points):
     assert done == steps and marks == []
     holding = [*steps, step("StationKeep")]
     assert with_shape(task, holding, USV)[0] == holding
+
+
+@pytest.mark.parametrize(("x", "right"), [(100, True), (98.2, True), (97, False)])
+def test_a_waypoint_of_a_large_square_may_miss_it_by_a_fiftieth(x, right):
+    task = {
+        "title": "SurveyTarget",
+        "parameters": {"target_position": [0, 0], "radius": 100},
+        "task_prompt": "Survey it.",
+    }
+    assert (shape_problem(task, [(x, 0)], load_vocabulary()) is None) is right
+
+
+@pytest.mark.parametrize(("width", "right"), [(200, True), (196.5, True), (180, False)])
+def test_a_large_grid_may_miss_its_sides_by_a_fiftieth(width, right):
+    task = {
+        "title": "BathymetryGridSurvey",
+        "parameters": {"center": [0, 0], "width": 200, "length": 300, "spacing": 10},
+        "task_prompt": "Map it.",
+    }
+    points = lawnmower((0, 0), width, 300, width / 20)
+    assert (shape_problem(task, points, load_vocabulary()) is None) is right

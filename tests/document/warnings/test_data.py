@@ -166,6 +166,8 @@ def test_docking_drifting_and_searching_want_words_for_it() -> None:
     assert not unasked("Find the contract, go to [9, 0].", search, to(9))
     there = task("Transit", {"target_position": [-99, -99]}, None, "Go to the contract.")
     assert not unasked("Go to the contract.", search, there)
+    named = task("Transit", {"target_position": [-99, -99]}, None, "Go to the big contract.")
+    assert not unasked("Go to the big contract.", search, named)
 
 
 def test_a_task_that_is_done_twice_on_end_wants_words_of_its_own_for_it() -> None:
