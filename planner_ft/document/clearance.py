@@ -48,8 +48,8 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
         faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
         walls = [wall for face in faces if face for wall in _walls(face)]
         circle = reached or circle_of(task, vocabulary)
-        steps_of = _Steps(task, [*known, *walls], circle, pen, faces[1])
-        done.append(steps_of.cleared(allowed, _onward(following, vocabulary)))
+        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1])
+        done.append(clearing.cleared(allowed, _onward(following, vocabulary)))
     return done
 
 

@@ -66,7 +66,7 @@ CHECKS: tuple[Check, ...] = (
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsought),
     *(values.unsaid_skills, places.done_again, places.done_twice, places.gone_to_bars),
-    *(places.gone_to_told, picked.elsewhere),
+    *(places.gone_to_mentioned, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

@@ -72,8 +72,8 @@ def gone_to_bars(case: Case) -> Iterator[Warning]:
             yield warning("value-not-said", "asked", task, about="asked")
 
 
-def gone_to_told(case: Case) -> Iterator[Warning]:
-    """Ways to a thing of which the command only tells, once, and at which nothing is done."""
+def gone_to_mentioned(case: Case) -> Iterator[Warning]:
+    """Ways to a thing that the command only mentions, once, and at which nothing is done."""
     rows = [place for row in case.rows for place in row]
     named = [one for one in named_places(case.text, case.vocabulary) if one[1] not in rows]
     for task, following in itertools.zip_longest(case.tasks, case.tasks[1:]):
