@@ -123,6 +123,16 @@ def test_a_command_loses_words_but_nothing_that_its_plan_or_meaning_needs() -> N
     assert all(copy["expected"] is find["expected"] for copy in found if copy)
 
 
+def test_a_command_loses_no_word_that_takes_a_part_of_it_back() -> None:
+    for word in ("skip", "cancel", "omit"):
+        find = record(
+            f"Search the harbour for the rusty ladder and {word} the scheduled picture.",
+            ("FindAsset", {"target_description": "rusty ladder"}, "Search for the rusty ladder."),
+        )
+        found = [with_lost_words(find, Random(seed)) for seed in range(30)]
+        assert all(word in copy["prompt"] for copy in found if copy)
+
+
 def test_a_command_of_few_words_loses_none() -> None:
     hover = record("Hover 20 s.", ("HoverWatch", {"duration": 20}, "Hover for 20 seconds."))
     assert with_lost_words(hover, Random(1)) is None
