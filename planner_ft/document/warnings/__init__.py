@@ -56,17 +56,14 @@ CHECKS: tuple[Check, ...] = (
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
-    asked.once_for_all,
     route.performed,
-    *(places.unmoved, places.round_home, picked.only_there, said.intervals, said.endless),
-    *(directions.begun_otherwise, directions.faced_otherwise),
-    *(said.measures, said.corrected, said.unclear, said.bare_numbers, said.clock_times),
-    *(places.geographic, places.rows, places.uneven_rows, places.unvisited),
+    *(places.unmoved, places.round_home, said.intervals, said.endless),
+    *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
+    *(said.clock_times, places.geographic, places.rows, places.uneven_rows, places.unvisited),
     *(places.positions, said.limits, said.repeats, said.devices, directions.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsought),
-    *(values.unsaid_skills, places.done_again, places.done_twice, places.gone_to_bars),
-    *(places.gone_to_mentioned, picked.elsewhere),
+    *(values.unsaid_skills, places.done_again, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)

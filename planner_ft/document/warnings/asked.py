@@ -20,7 +20,7 @@ NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
 IT = re.compile(r"\s+(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
 BEGUN = re.compile(r"[.!?;]\s+(?:(?:no|oh|er|um|wait|sorry|actually)\W*)*$", re.IGNORECASE)
-SENTENCE = re.compile(r"[.!?;]\s")
+SENTENCE = re.compile(r"(?<!\.)[.!?;]\s")  # no dots of hesitation
 # The share of unknown words of another language (benchmarks/language_check.py).
 UNKNOWN = 0.55
 
@@ -76,18 +76,6 @@ def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator
     # A plan without tasks says itself why.
     if planned and impossible and clause.wants(clause.start):
         yield impossible[0], 0
-
-
-def once_for_all(case: Case) -> Iterator[Warning]:
-    """A task that is asked for at several places alike ("report after each one"), and done once."""
-    titles = [task["title"] for task in case.tasks]
-    often = max(map(titles.count, {*titles} - {case.vocabulary.transit}), default=0)
-    for clause in case.typed if often > 1 else ():
-        for ask in case.spoken.asks if case.words["everywhere"].search(clause.text) else ():
-            own = [task for task in case.tasks if task["title"] in ask.tasks]
-            if len(own) == 1 and any(clause.spans(ask.named)):
-                said = quoted(clause.text.strip(" ,;"))
-                yield warning("repeat-lost", "once", own[0], about=said.casefold(), words=said)
 
 
 def ruled_out_still(case: Case) -> Iterator[Warning]:

@@ -1,6 +1,4 @@
-"""Directions of the command that the plan has not: where a survey begins, how its lines lie, where
-the vehicle looks.
-"""
+"""Directions of the command that the plan has not: where a survey begins, how its lines lie."""
 
 from collections.abc import Iterator
 
@@ -11,7 +9,6 @@ from planner_ft.document.warnings.case import Case, Warning, lost
 from planner_ft.facts.places import read_bearings
 from planner_ft.vocabulary import Entry
 
-NEAR_BY = 5  # characters between "facing" and a direction: "facing the north"
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 
 
@@ -24,16 +21,6 @@ def laid_otherwise(case: Case) -> Iterator[Warning]:
         laid = case.words["laid"].search(clause.text)
         if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
             yield lost(clause.text.strip(" ,;."))
-
-
-def faced_otherwise(case: Case) -> Iterator[Warning]:
-    """A direction in which the vehicle is to look, and of which no task prompt speaks."""
-    told = {one.value for task in case.tasks for one in read_bearings(task["task_prompt"])}
-    for clause in case.clauses:
-        for start, end in clause.spans(case.words["facing"]):
-            named = [one for one in read_bearings(case.text[start : clause.end]) if one.start]
-            if named and named[0].start <= end - start + NEAR_BY and named[0].value not in told:
-                yield lost(case.text[start : start + named[0].end])
 
 
 def _first_leg(task: Entry, case: Case) -> Leg | None:

@@ -1,10 +1,8 @@
 """What the command has at one of several places ("circle the second"), and the plan elsewhere."""
 
-import itertools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import Point, place_of
@@ -23,10 +21,6 @@ ORDINAL = re.compile(
 """An ordinal that stands for a place, and the noun behind it."""
 COUNTS = {None: 1, "two": 2, "three": 3}
 ONLY = re.compile(r"\b(?:only|just|alone|nowhere else)\b", re.IGNORECASE)
-KEPT = re.compile(
-    r"\W*(?:but )?(?:only|just|except|save) (?:while|when|during|at|on|in|from|as|once|between)\b",
-    re.IGNORECASE,
-)
 Places = Sequence[Position]
 Done = list[tuple[Point, Entry]]  # the tasks with the places where they are
 
@@ -62,19 +56,6 @@ def elsewhere(case: Case) -> Iterator[Warning]:
         for task in wrong[:1]:
             words = quoted(choices[0].clause.text.strip(" ,;."))
             yield warning("contradiction", "picked", task, about=words.casefold(), words=words)
-
-
-def only_there(case: Case) -> Iterator[Warning]:
-    """Data that one clause rules out and the next keeps ("no video on the way, only while you
-    inspect"), and that nothing gathers.
-    """
-    gathering = set[str]().union(*(gathered_by(task, case.vocabulary) for task in case.tasks))
-    for clause, behind in itertools.pairwise(case.typed):
-        for data in case.spoken.data if clause.excluded is not None else ():
-            match = data.said.search(clause.text) if KEPT.match(behind.text) else None
-            if match and data.skills and not data.skills & gathering:
-                words: dict[str, Any] = {"words": f'"{match[0]}"', "about": match[0].casefold()}
-                yield warning("data-not-planned", "nowhere", **words)
 
 
 def left_out(case: Case) -> Iterator[Position]:

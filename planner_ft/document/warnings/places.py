@@ -1,6 +1,5 @@
 """Places of the command that the plan has not, or has otherwise."""
 
-import itertools
 import re
 from collections.abc import Iterator
 
@@ -16,7 +15,6 @@ from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
-OF = re.compile(r"\s+(?:of|with)\b")
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
 
@@ -61,29 +59,6 @@ def _is_told_of(place: Position, case: Case) -> bool:
 
 def _ends(line: tuple[str, Position, Position]) -> list[tuple[float, float]]:
     return [(end.x, end.y) for end in line[1:]]
-
-
-def gone_to_bars(case: Case) -> Iterator[Warning]:
-    """Ways to the end of what bars the way."""
-    ends = [end for line in bars(case.document, case.vocabulary) for end in _ends(line)]
-    for task in case.tasks if ends else ():
-        at = place_of(task, case.vocabulary)
-        if task["title"] == case.vocabulary.transit and at in ends:
-            yield warning("value-not-said", "asked", task, about="asked")
-
-
-def gone_to_mentioned(case: Case) -> Iterator[Warning]:
-    """Ways to a thing that the command only mentions, once, and at which nothing is done."""
-    rows = [place for row in case.rows for place in row]
-    named = [one for one in named_places(case.text, case.vocabulary) if one[1] not in rows]
-    for task, following in itertools.zip_longest(case.tasks, case.tasks[1:]):
-        at, transit = place_of(task, case.vocabulary), task["title"] == case.vocabulary.transit
-        stays = following is None or place_of(following, case.vocabulary) in (None, at)
-        for words, place in named if transit and at and not stays else ():
-            noun = re.escape(OF.split(words)[0].split()[-1])
-            once = len(re.findall(rf"(?i)\b{noun}\b", case.text)) == 1
-            if once and same_place(place, at or ()) and _is_told_of(place, case):
-                yield warning("value-not-said", "asked", task, about="asked")
 
 
 def geographic(case: Case) -> Iterator[Warning]:
@@ -147,19 +122,6 @@ def done_again(case: Case) -> Iterator[Warning]:
         if said == 1 and one in done and (task["title"] != known.transit or ends):
             yield warning("value-not-said", "asked", task, about="asked")
         done.append(one)
-
-
-def done_twice(case: Case) -> Iterator[Warning]:
-    """A task without a place that is done twice on end, for words that are said once at most."""
-    again = any(
-        case.words[name].search(case.command) for name in ("again", "repeats", "everywhere")
-    )
-    for one, other in itertools.pairwise(() if again else case.tasks):
-        asks = [ask for ask in case.spoken.asks if one["title"] in ask.tasks]
-        said = max((len(ask.named.findall(case.command)) for ask in asks), default=0)
-        same = one["title"] == other["title"] and one["parameters"] == other["parameters"]
-        if same and said < 2 and place_of(other, case.vocabulary) is None:
-            yield warning("value-not-said", "asked", other, about="asked")
 
 
 def _done_at(case: Case) -> dict[Point, set[str]]:

@@ -95,21 +95,6 @@ def intervals(case: Case) -> Iterator[Warning]:
             yield lost(case.text[every.start() : number.end])
 
 
-def corrected(case: Case) -> Iterator[Warning]:
-    """Measures that a correction took the place of, where it is of the one right before it: "on
-    heading 090 for 200 m, I meant 300" is no heading of 300.
-    """
-    for clause, behind in itertools.pairwise(case.clauses):
-        own = [n for n in case.numbers if clause.start <= n.start < clause.end]
-        own = [one for one in own if _is_measure(case.text, one)] if clause.corrected else []
-        instead = [one for one in case.numbers if behind.start <= one.start < behind.end]
-        if len(own) > 1 and len(instead) == 1 and instead[0].unit is None:
-            stays = case.plan.says(own[-1].value) and case.plan.says(instead[0].value)
-            for number in own[:-1] if stays else ():
-                if not case.plan.says(number.value):
-                    yield lost(case.text[number.start : number.end])
-
-
 def unclear(case: Case) -> Iterator[Warning]:
     """Clauses that change a value and say none: "double it", "the first was right"."""
     for clause in case.clauses:

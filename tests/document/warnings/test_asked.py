@@ -95,7 +95,7 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         (
             "Hold here, make coffee, and come home.",
             [hold(600), hold(600), BACK],
-            ["value-not-said:t1:duration", "value-not-said:t2:duration", "value-not-said:t2:asked"],
+            ["value-not-said:t1:duration", "value-not-said:t2:duration"],
         ),
         (
             "Go to [30, 40]. Come home, but do not come home.",
@@ -108,11 +108,6 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
             "Look all round. No panorama after all.",
             [PANORAMA],
             ["contradiction:t1:no panorama after all"],
-        ),
-        (
-            "Look all round. No panorama after all.",
-            [PANORAMA, PANORAMA],
-            ["value-not-said:t2:asked"],
         ),
         ("No panorama. Take a panorama.", [PANORAMA], []),
         ("Take a panorama. No need to hurry or to be late, panorama.", [PANORAMA], []),
@@ -158,6 +153,16 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ("Go to [30, 40], no pictures.", [THERE], []),
         ("Go to [30, 40], no pictures, take pictures.", [THERE], ["data-not-planned:pictures"]),
         ("Go to [30, 40], take pictures, scratch that.", [THERE], []),
+        (
+            "Skip the panorama, go to [30, 40], come home.",
+            [PANORAMA, THERE, BACK],
+            ["contradiction:t1:skip the panorama"],
+        ),
+        (
+            "A panorama... you know what, forget it. Go to [30, 40], come home.",
+            [PANORAMA, THERE, BACK],
+            ["contradiction:t1:forget it"],
+        ),
     ],
 )
 def test_what_is_asked_and_what_is_planned(

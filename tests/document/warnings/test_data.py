@@ -170,21 +170,6 @@ def test_docking_drifting_and_searching_want_words_for_it() -> None:
     assert not unasked("Go to the big contract.", search, named)
 
 
-def test_a_task_that_is_done_twice_on_end_wants_words_of_its_own_for_it() -> None:
-    check = task("Diagnostics", {}, [step("StationKeep")])
-    command = "Drift at [9, 0], drift at [19, 0], and run the diagnostics."
-    drift = task("DriftAudit", {}, [step("DriftWithCurrent")])
-    found = unasked(command, to(9), drift, to(19), drift, check, check)
-    assert found == ["Task 6, Diagnostics"]
-
-
-def test_a_way_to_a_thing_that_is_only_told_of_wants_words_for_it() -> None:
-    told = "A concrete pier with a radius of 12 m stands at [60, 0]; get yourself to [120, 0]."
-    assert unasked(told, to(60), to(120)) == ["Task 1, Transit"]
-    assert unasked(told, to(120)) == []
-    assert unasked(f"{told} Look at the pier.", to(60), to(120)) == []
-
-
 @pytest.mark.parametrize(("skills", "count"), [((), 1), (("SetStreamRecording",), 0)])
 def test_data_until_the_vehicle_is_back_are_gathered_on_every_way(
     skills: tuple[str, ...], count: int

@@ -92,10 +92,3 @@ def test_a_place_that_is_left_out_is_not_missing_from_its_row() -> None:
 def gathers(command: str, *skills: str) -> bool:
     texts = [one["text"] for one in document([to(2, *skills)], command=command)["warnings"]]
     return not any("no step of the plan gathers" in text for text in texts)
-
-
-def test_data_that_are_wanted_in_one_place_alone_must_be_gathered_there() -> None:
-    wanted = "Go to 2,0, no video on the way, only while you inspect."
-    assert not gathers(wanted)
-    assert gathers(wanted, "SetStreamRecording")
-    assert gathers("Go to 2,0, no video on the way, then inspect.")

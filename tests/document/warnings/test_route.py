@@ -177,8 +177,10 @@ def test_steps_that_are_out_of_date_or_of_a_search_may_do_anything() -> None:
 # ---------------------------------------------------------------- stand-offs
 
 
-def close(*tasks: dict[str, Any], chart: dict[str, tuple[float, float]]) -> list[str]:
-    plan = document(tasks, chart=chart)
+def close(
+    *tasks: dict[str, Any], chart: dict[str, tuple[float, float]], limits: tuple[str, ...] = ()
+) -> list[str]:
+    plan = document(tasks, chart=chart, constraints=limits)
     for entry, own in zip(plan["tasks"], tasks, strict=True):
         entry["skill_sequence"] = own["skill_sequence"]
     found = revise(plan, USV)["warnings"]
@@ -208,3 +210,11 @@ def test_each_task_and_structure_is_told_and_a_task_without_steps_is_not() -> No
     assert len(close(to(100, 0), to(0, 0), chart=masts)) == 4
     assert close(to(100, 0) | {"skill_sequence": None}, chart=masts) == []
     assert len(close(to(40, 0), to(100, 0), chart={"one": (70.0, 5.0)})) == 1
+
+
+@pytest.mark.parametrize("thing", ["the mast", "[50, 5]", "the mast at [50, 5]"])
+def test_a_limit_tells_of_its_structure_itself(thing: str) -> None:
+    chart = {"the mast": (50.0, 5.0)}
+    limit = "The vehicle stays at least {} m from {}."
+    assert close(to(100, 0), chart=chart, limits=(limit.format(4, thing),)) == []
+    assert len(close(to(100, 0), chart=chart, limits=(limit.format(4, "the buoy"),))) == 1

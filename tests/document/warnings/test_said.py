@@ -166,8 +166,6 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Film the pier at 9,9 with the port camera.", [to(9, 9)], (), "value-lost"),
         ("Film the pier at 9,9 with the camera.", [to(9, 9)], (), None),
         (RAMP, [to(9, 9)], (), None),
-        ("Hold at 9,9 for 60 s, facing north.", at(9), (), "value-lost"),
-        ("Hold at 9,9 for 60 s, bow to the south-west.", at(9), (), "value-lost"),
         ("Go to 9,9, the quay faces north.", [to(9, 9)], (), None),
         ("Go 100 m on bearing 090.", [to(100, 0)], (), None),
         ("Go 100 m on bearing 045.", [to(100, 0)], (), "value-lost"),
@@ -188,13 +186,6 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Start with a drift. Scratch that, go to 9,9.", [drift(), to(9, 9)], (), "contradiction"),
         ("Go to the gauge at 9,60, it runs hot.", [to(9, 60)], (), None),
         ("Nothing north of y = 50 is allowed. Go to 9,80.", [to(9, 80)], (), "limit-lost"),
-        (
-            "Hold at 1,9 and 2,9 and report after each one.",
-            [*at(1), *at(2), REPORT],
-            (),
-            "repeat-lost",
-        ),
-        ("Hold at 1,9 and 2,9, write it up at each.", [*at(1), *at(2), REPORT], (), "repeat-lost"),
         ("Hold at 1,9 and 2,9 and report.", [*at(1), *at(2), REPORT], (), None),
         ("Hold at 1,9 and report after each one.", [*at(1), REPORT], (), None),
         (
@@ -331,7 +322,6 @@ ROUND = "Go round the mast at 60,60 {} at 20 m."
             [orbit(360), to(0, 0)],
             ["5 m"],
         ),
-        ("Circle it on heading 095 at 20 m, I meant to say 360.", [orbit(360)], ["095"]),
         ("Circle it on heading 095 at 22 m, I meant to say 360.", [orbit(360)], []),
         ("Circle it at 20 m, I meant to say 360.", [orbit(360)], []),
         (

@@ -245,11 +245,3 @@ def test_a_ring_round_home_wants_words_for_home() -> None:
     assert len(told(plan, "value-not-said")) == 1
     plan = document([ring((0, 0), (10, 0))], command="Survey [0, 0] at 10 m.")
     assert told(plan, "value-not-said") == []
-
-
-def test_a_direction_that_is_faced_is_quoted() -> None:
-    hold = task("KeepStation", {"duration": 60}, [step("StationKeep", {"time": 60})])
-    plan = document([hold], command="Hold for 60 s facing the north-west, then rest.")
-    assert told(plan, "value-lost") == [
-        'The command says "facing the north-west", and no task has it.'
-    ]
