@@ -4,6 +4,7 @@ import heapq
 import itertools
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from planner_ft.document.structures import (
@@ -14,6 +15,7 @@ from planner_ft.document.structures import (
     Allowed,
     Structure,
     along,
+    berth,
     fence,
     runs_along,
     structures,
@@ -38,6 +40,7 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
         return tasks
     pen = Pen(vocabulary, document.get("vehicle") or {})
     allowed, done = fence(document, vocabulary), []
+    berths = {place for task in tasks if (place := berth(task, vocabulary))}
     for before, task, following in zip([None, *tasks], tasks, [*tasks[1:], None], strict=False):
         steps = task.get("skill_sequence")
         if steps is None or task.get("stale") or runs_along(task, vocabulary):
@@ -48,7 +51,7 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
         faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
         walls = [wall for face in faces if face for wall in _walls(face)]
         circle = reached or circle_of(task, vocabulary)
-        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1])
+        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1], berths)
         done.append(clearing.cleared(allowed, _onward(following, vocabulary)))
     return done
 
@@ -81,8 +84,10 @@ class _Steps:
         circle: tuple[Point, float] | None,
         pen: Pen,
         face: Face | None,
+        berths: set[Point],
     ) -> None:
         self.task, self.known, self.circle, self.pen, self.face = task, known, circle, pen, face
+        self.berths = berths
         self.steps: list[Step] = []
         self.marks: Marks = []
 
@@ -94,8 +99,11 @@ class _Steps:
             own = [mark for mark in marks if mark["step"] == number]
             moved = self._to_standoff(step)
             goal, here = self._goal(moved), self.pen.here
-            for point in way_round(here, goal, self.known, allowed) if here and goal else ():
-                self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
+            if here and goal:
+                docked = self.berths & {here, goal}
+                known = [one for one in self.known if not any(one.blocks(at, at) for at in docked)]
+                for point in way_round(here, goal, known, allowed):
+                    self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
             self._add(moved, own, "ends at the stand-off" if moved is not step else "")
         entry = {**self.task, "skill_sequence": self.steps}
         return {**entry, "added": self.marks} if self.marks else entry
@@ -180,9 +188,10 @@ def way_round(
 ) -> list[Point]:
     """Waypoints of the shortest way that no structure blocks; none where there is no other way.
 
-    A structure whose stand-off start or goal lie within is left to the warnings.
+    Of a structure whose stand-off start or goal lie within, it keeps as far as these; the rest is
+    left to the warnings.
     """
-    zones = [one for one in known if not one.blocks(start, start) and not one.blocks(goal, goal)]
+    zones = [_as_far_as(one, start, goal) for one in known]
     used = [one for one in zones if one.blocks(start, goal)]
     for _round in range(MOST_ROUNDS if used else 0):
         path = _shortest(start, goal, used, allowed)
@@ -193,6 +202,12 @@ def way_round(
             return path[1:-1]
         used += met
     return []
+
+
+def _as_far_as(structure: Structure, *ends: Point) -> Structure:
+    """The structure with a stand-off that both ends of a way keep."""
+    nearest = min(math.dist(structure.position, end) for end in ends)
+    return replace(structure, standoff=min(structure.standoff, nearest + MARGIN))
 
 
 def _shortest(

@@ -366,7 +366,7 @@ def test_a_full_way_round_has_twelve_corners_half_a_metre_beyond_the_standoff() 
     assert corners[0][1] > 0 and corners[3][0] > 50
 
 
-def test_the_shortest_way_round_is_taken_and_none_where_one_is_within() -> None:
+def test_the_shortest_way_round_is_taken_and_from_within_none_is_nearer() -> None:
     def free(_start: Any, _goal: Any) -> bool:
         return True
 
@@ -379,8 +379,9 @@ def test_the_shortest_way_round_is_taken_and_none_where_one_is_within() -> None:
     )
     assert not any(BUOY.blocks(*leg) for leg in itertools.pairwise(way))
     assert way_round((0, 20), (100, 20), [BUOY], free) == []
-    assert way_round((45, 0), (100, 0), [BUOY], free) == []
-    assert way_round((0, 0), (55, 0), [BUOY], free) == []
+    for ends in (((45.0, 0.0), (100.0, 0.0)), ((0.0, 0.0), (55.0, 0.0))):
+        way = [ends[0], *way_round(*ends, [BUOY], free), ends[1]]
+        assert min(way_off(BUOY.position, *leg) for leg in itertools.pairwise(way)) >= 4.99
     beside = Structure("", (50.0, 16.0), 10.0)
     way = [(0.0, 1.0), *way_round((0, 1), (100, 1), [BUOY, beside], free), (100.0, 1.0)]
     assert not any(one.blocks(*leg) for leg in itertools.pairwise(way) for one in (BUOY, beside))
@@ -595,3 +596,17 @@ def test_the_way_on_from_an_arc_begins_with_no_step_off_its_circle() -> None:
     here = (50, 10)  # on the stand-off circle of the buoy
     first = way_round(here, (50, -40), [BUOY], lambda _start, _goal: True)[0]
     assert math.dist(here, first) > 5
+
+
+def test_ways_to_and_from_steps_within_a_stand_off_come_no_nearer_than_these() -> None:
+    ring = [(80, 30), (120, 30), (120, 70), (80, 70)]
+    survey = task(
+        "SurveyTarget",
+        {"target_position": [100, 50], "radius": 20},
+        [go(x, y) for x, y in ring],
+        "Inspect [100, 50] at a stand-off of 20 m.",
+    )
+    divers = "The vehicle stays at least 40 m from the divers at [50, 25]."
+    plan = document([survey, transit(0, 0)], constraints=[divers])
+    assert nearest(plan, [50, 25]) >= math.dist((80, 30), (50, 25)) - 0.1
+    assert "limit-broken" in kinds(plan)
