@@ -31,8 +31,8 @@ def test_a_new_vehicle_has_what_it_needs_and_is_written_once(rover: Path) -> Non
     assert not any("my_vehicle" in path.read_text() for path in rover.parent.glob("*.*"))
     with pytest.raises(PlannerError, match="exists; give a new folder with --out"):
         new_vehicle("my_rover", rover.parent)
-    for name in ("usv", "My Rover", "../x"):
-        with pytest.raises(PlannerError, match="take another one"):
+    for name, why in (("usv", "a bundled vehicle"), ("My Rover", "a name has"), ("../x", "a-z")):
+        with pytest.raises(PlannerError, match=f"{why}.*take another one"):
             new_vehicle(name, rover.parent / "other")
 
 

@@ -277,3 +277,12 @@ def test_a_proposed_value_is_shown_to_60_characters(count: int, end: str) -> Non
     added = document([task("KeepStation", {}, None)])
     edit = {"kind": "parameter", "task": "t1", "name": "duration", "value": 9}
     assert apply(added, edit, USV)["tasks"][0]["sources"]["duration"]["note"] == "added"
+
+
+def test_a_value_is_from_the_words_in_the_midst_of_the_others() -> None:
+    command = "Orbit [60, 60] through 180 degrees at 20 m, then survey [90, 10] at 20 m."
+    orbit = task("PerformOrbit", {"center": [60, 60], "radius": 20, "arc": 180}, None)
+    survey = task("SurveyTarget", {"target_position": [90, 10], "radius": 20}, None)
+    plan = document([orbit, survey], command=command)
+    spans = [entry["sources"]["radius"]["spans"] for entry in plan["tasks"]]
+    assert spans == [[[38, 42]], [[68, 72]]]

@@ -91,6 +91,20 @@ def test_a_place_that_is_open_names_its_first_task_and_all() -> None:
 
 
 @pytest.mark.parametrize(
+    ("place", "sentence"),
+    [
+        ("10.5000 N, 170.5000 E", "is a geographic position"),
+        ("10.5000 N, 190.5000 E", "is no position on the globe"),
+        ("95.1000 N, 10.5000 E", "is no position on the globe"),
+    ],
+)
+def test_a_geographic_place_is_on_the_globe_or_said_not_to_be(place: str, sentence: str) -> None:
+    go = task("Transit", {"target_position": [-99, -99]}, None, f"Go to {place}.")
+    plan = document([go], command=f"Go to {place}.")
+    assert f"{place} {sentence}" in str(plan["warnings"])
+
+
+@pytest.mark.parametrize(
     ("tasks", "ids"),
     [
         ([grid(50, 20)], []),
