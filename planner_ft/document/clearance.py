@@ -100,6 +100,7 @@ class _Steps:
             moved = self._to_standoff(step)
             goal, here = self._goal(moved), self.pen.here
             if here and goal:
+                # What a berth lies beside does not bar the way to it.
                 docked = self.berths & {here, goal}
                 known = [one for one in self.known if not any(one.blocks(at, at) for at in docked)]
                 for point in way_round(here, goal, known, allowed):
@@ -188,8 +189,8 @@ def way_round(
 ) -> list[Point]:
     """Waypoints of the shortest way that no structure blocks; none where there is no other way.
 
-    Of a structure whose stand-off start or goal lie within, it keeps as far as these; the rest is
-    left to the warnings.
+    Where start or goal lie within a stand-off, the way comes no nearer to that structure than they
+    do; the warnings say that they are too close.
     """
     zones = [_as_far_as(one, start, goal) for one in known]
     used = [one for one in zones if one.blocks(start, goal)]
@@ -206,8 +207,8 @@ def way_round(
 
 def _as_far_as(structure: Structure, *ends: Point) -> Structure:
     """The structure with a stand-off that both ends of a way keep."""
-    nearest = min(math.dist(structure.position, end) for end in ends)
-    return replace(structure, standoff=min(structure.standoff, nearest + MARGIN))
+    kept = min(math.dist(structure.position, end) for end in ends) + MARGIN
+    return structure if kept >= structure.standoff else replace(structure, standoff=kept)
 
 
 def _shortest(

@@ -87,8 +87,3 @@ def test_other_ordinals_and_what_is_asked_for_twice_pick_no_place(command: str) 
 def test_a_place_that_is_left_out_is_not_missing_from_its_row() -> None:
     command = "Go to 1,0, 3,0 and 5,0 in turn, skip the middle one."
     assert document([to(1), to(5)], command=command)["warnings"] == []
-
-
-def gathers(command: str, *skills: str) -> bool:
-    texts = [one["text"] for one in document([to(2, *skills)], command=command)["warnings"]]
-    return not any("no step of the plan gathers" in text for text in texts)
