@@ -210,7 +210,8 @@ def _end_epoch(run: Run) -> None:
         if answers and run.settings.select == "f1":
             found = means(answers)
             rank = [-found["f1"], -found["exact_sequence"], loss]
-        best = state.best_rank is None or rank < state.best_rank
+        last = run.settings.select == "last"
+        best = last or state.best_rank is None or rank < state.best_rank
         if best:
             state.best_loss, state.best_epoch, state.best_rank = loss, epoch, rank
             state.best_answers = answers
@@ -220,7 +221,7 @@ def _end_epoch(run: Run) -> None:
         record["seconds"] = round(time.monotonic() - begun, 3)
         state.history.append(record)
         run.report.record(record)
-        text += f", validation loss {loss:.4f}{' (best)' if best else ''}"
+        text += f", validation loss {loss:.4f}{' (best)' if best and not last else ''}"
         text += f"; {_summary(answers)}" if answers else ""
     run.report.note(text)
 

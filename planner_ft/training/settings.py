@@ -50,7 +50,7 @@ class TrainSettings:
     vary: int = 0
     vocabulary_in_prompt: bool = False
     max_steps: int | None = None
-    select: Literal["loss", "f1"] = "loss"
+    select: Literal["loss", "f1", "last"] = "loss"
     validation_answers: int = 25
 
     device: str = "auto"

@@ -59,6 +59,21 @@ def test_the_best_adapter_is_kept_by_what_was_asked_for(
     assert result["change"].startswith("better than the base on 3 validation samples: F1 0.00 to")
 
 
+@pytest.mark.parametrize(("select", "kept"), [("loss", 1), ("last", 2)])
+def test_the_last_adapter_can_be_kept_whatever_its_loss(
+    ask: Callable[..., Any],
+    quiet: Console,
+    short: dict[str, Any],
+    monkeypatch: pytest.MonkeyPatch,
+    select: str,
+    kept: int,
+) -> None:
+    rising = iter([1.0, 2.0])
+    monkeypatch.setattr("planner_ft.training.loop.validation_loss", lambda *_known: next(rising))
+    result = train(ask(**short, select=select), quiet, Scripted)["result"]
+    assert (result["best_epoch"], result["validation_loss"]) == (kept, float(kept))
+
+
 def test_a_resumed_run_keeps_the_answers_and_the_losses(
     ask: Callable[..., Any],
     quiet: Console,
