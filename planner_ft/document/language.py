@@ -129,7 +129,8 @@ def _are_words(value: Any) -> bool:
 class Clause:
     """A clause of a command. `corrected`: the next words take it back.
 
-    `excluded`: where words that rule something out begin (before `start`: it only tells of it).
+    `excluded`: where words that rule something out begin (before `start`: it only tells of it), and
+    `resumed` where what they correct goes on: "contact 3, no, belay that, contact 8".
     """
 
     start: int
@@ -137,6 +138,7 @@ class Clause:
     text: str
     excluded: int | None
     corrected: bool
+    resumed: int | None = None
 
     def wants(self, place: int) -> bool:
         """Whether words at a place of the command are not ruled out."""
@@ -164,5 +166,8 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
             behind = command[end : end + 24].lstrip(" ,.;:!?-")
             corrected = any(map(words["correction"].match, (behind, NO.sub("", behind))))
             told = words["told"].search(text)
-            found.append(Clause(start, end, text, start - 1 if told else excluded, corrected))
+            behind_it = exclusion and words["correction"].search(text, exclusion.end())
+            resumed = start + behind_it.end() if behind_it and not told else None
+            excluded = start - 1 if told else excluded
+            found.append(Clause(start, end, text, excluded, corrected, resumed))
     return tuple(found)

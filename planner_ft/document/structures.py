@@ -11,6 +11,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from planner_ft.document.limits import limits_of
 from planner_ft.document.ontology import is_thing, named_lines, named_places, stands
@@ -183,7 +184,7 @@ def fence(document: Entry, vocabulary: Vocabulary) -> Allowed:
     from shapely import LineString, Polygon
 
     areas = [Polygon(corners).buffer(MARGIN) for corners in inside]
-    closed = [Polygon(corners).buffer(-MARGIN) for corners in outside]
+    closed = list(map(closed_area, outside))
 
     def stays(start: Point, goal: Point) -> bool:
         leg = LineString([start, goal])
@@ -191,6 +192,15 @@ def fence(document: Entry, vocabulary: Vocabulary) -> Allowed:
         return kept and not any(area.intersects(leg) for area in closed)
 
     return stays
+
+
+def closed_area(corners: Sequence[Point]) -> Any:
+    """The inside of an area without its edge (shapely); the line of one that has no inside."""
+    from shapely import Polygon, make_valid
+
+    area = make_valid(Polygon(corners))
+    inside = area.buffer(-MARGIN)
+    return area.buffer(MARGIN) if inside.is_empty else inside
 
 
 def berth(task: Entry, vocabulary: Vocabulary) -> Point | None:

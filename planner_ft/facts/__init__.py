@@ -23,9 +23,9 @@ Everything is cached by the text. No word list of a vehicle, no task name and no
 sentence asks for is in here: only what it states.
 """
 
+from planner_ft.facts.geographic import Geographic as Geographic
 from planner_ft.facts.inputs import Input as Input
 from planner_ft.facts.inputs import read_input as read_input
-from planner_ft.facts.places import Geographic as Geographic
 from planner_ft.facts.places import Position as Position
 from planner_ft.facts.reading import SCORING as SCORING
 from planner_ft.facts.reading import WAYPOINT as WAYPOINT

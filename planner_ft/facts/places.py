@@ -1,13 +1,6 @@
-"""Places and directions of a text.
-
-Geographic coordinates are a kind of their own. They are told from local positions ("40 east, 25
-north", in metres) by a degree sign with minutes or a hemisphere, the words latitude and longitude,
-hemisphere letters at two numbers with decimals (at one: two decimals), or four decimals and more,
-and stand in pairs unless they have minutes.
-"""
+"""Places in local metres, and directions of a text."""
 
 import functools
-import itertools
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -17,34 +10,13 @@ from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.together import BY, REREAD, WRITTEN, Number, pairs
 from planner_ft.facts.words import COMPASS, SHORT, UNITS
 
-DIGITS_OF_DEGREES = 4  # decimals from which a bare number is rather degrees than metres
 MOST_BETWEEN = 80  # characters between two coordinates
-BLANK = "|"  # stands in place of what was read already
 _DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
 _METRES = r"(?:met(?:re|er)s?|m)\b"
-_MINUS = ("-", "−", "–")
 _SIGN = r"(?:minus |negative |[-−–])"
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
 _PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
 
-_COORDINATE = re.compile(
-    r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
-    r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.])|(?<=\d[NS])|(?<=\.\d{4})(?=[+-]\d{2,3}\.\d{4}))"
-    r"(?P<sign>[-−–+])?"
-    r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|(?=-?[0-5]\d)))"
-    r"(?:-?(?P<sixtieths>[0-5]\d(?:\.\d+)?))?(?(lead)|(?=[\s,]?[NSEW](?![A-Za-z])))"
-    r"|(?P<degrees>\d{1,3}(?:\.\d+|,\d{2,}(?=\s?[°º˚]))?)(?![\d.]*\d))"
-    r"(?P<ring>\s?(?:[°º˚]|(?P<spoken>(?i:deg(?:rees?)?)\b\.?))\s?"
-    r"(?:(?:(?i:and) )?(?P<minutes>\d{1,2}(?:[.,]\d+)?)\s?(?:['′’]|(?i:min(?:utes?)?)\b\.?)\s?"
-    r"(?:(?:(?i:and) )?(?P<seconds>\d{1,2}(?:[.,]\d+)?)\s?"
-    r"(?:[\"″”]|''|’’|(?i:sec(?:onds?)?)\b\.?)\s?)?)?)?"
-    r"(?(lead)|(?P<hemisphere>"
-    r"(?:\s|(?<=\d),)?(?:[NSEW](?![A-Za-z_])|(?i:north|south|east|west)\b))?)"
-)
-"""`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N; 480702N) or as
-they are spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N".
-"""
-_BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 _WRITTEN_PAIR = re.compile(
     rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)"
     rf"|(?<!\w)x\s?[=:]?\s?{_NUMBER}\W{{0,3}}y\s?[=:]?\s?{_NUMBER}",
@@ -71,7 +43,6 @@ _COORDINATE_UNIT = re.compile(
 """The unit of the coordinates in a sentence, which are metres elsewhere."""
 _OPENED = re.compile(r"[\[(]\s*$")
 _AT = re.compile(r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}$", re.IGNORECASE)
-_PLAIN = re.compile(rf"{_SIGN}?\d+(?:\.\d+)?\s*(?:,\s*|\s){_SIGN}?\d+(?:\.\d+)?", re.IGNORECASE)
 _AXES = re.compile(
     r"(?<![a-z])y\s?[=:]?\s?(?:[-−–]|minus )?\d|\d\s?(?:east|west|north|south)\b.*\d", re.IGNORECASE
 )
@@ -110,111 +81,6 @@ class Position:
     start: int
     end: int
     certain: bool = False
-
-
-@dataclass(frozen=True)
-class Geographic:
-    """A geographic position in degrees, north and east positive; None for what is not said."""
-
-    latitude: float | None
-    longitude: float | None
-    start: int
-    end: int
-
-
-# ---------------------------------------------------------------- geographic positions
-
-
-@functools.lru_cache(maxsize=2048)
-def read_geographic(text: str) -> tuple[Geographic, ...]:
-    """The geographic positions of a text."""
-    known = list(_COORDINATE.finditer(text))
-    sure = [match for match in known if _is_degrees(match)]
-    for one, two in itertools.pairwise(known):
-        # "54.3 N, 10.1 E": metres have no such letters at decimals.
-        lettered = (_has_letter(match) and "." in (match["degrees"] or "") for match in (one, two))
-        if all(lettered) and _degrees(one)[1] != _degrees(two)[1]:
-            sure += [match for match in (one, two) if match not in sure]
-    # "48.123N 7.5E": what stands beside degrees with a hemisphere of its own is degrees.
-    pairs = [(one, two) for one, two in itertools.pairwise(known) if {one, two} & {*sure}]
-    beside = {
-        match
-        for one, two in pairs
-        if _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
-        for match in (one, two)
-        if _has_letter(match)
-    }
-    found = [match for match in known if match in beside or match in sure]
-    result, skip = list[Geographic](), False
-    for one, two in itertools.zip_longest(found, found[1:]):
-        paired = two is not None and _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
-        if not skip and (paired or (one["minutes"] and not one["spoken"])):
-            parts = (one, two) if paired else (one,)
-            (first, axis), (second, other) = [*map(_degrees, parts), (None, "")][:2]
-            turned = axis == "lon" or other == "lat"
-            both = (second, first) if turned else (first, second)
-            result.append(Geographic(*both, one.start(), parts[-1].end()))
-        skip = bool(paired) and not skip
-    return tuple(result)
-
-
-def lone_coordinates(text: str) -> list[tuple[int, int]]:
-    """The spans of latitudes and longitudes that stand alone and are no position: "do not go north
-    of 54.3216N". Whole degrees need their hemisphere.
-    """
-    paired = [(place.start, place.end) for place in read_geographic(text)]
-    return [
-        match.span()
-        for match in _COORDINATE.finditer(text)
-        if _is_degrees(match)
-        and (match["lead"] or match["hemisphere"] or "." in match["degrees"])
-        and not any(start <= match.start() < end for start, end in paired)
-    ]
-
-
-def _is_degrees(match: re.Match[str]) -> bool:
-    decimals = len((match["degrees"] or "").replace(",", ".").partition(".")[2])
-    return bool(
-        match["word"]
-        or match["packed"]
-        or (match["minutes"] and not match["spoken"])
-        or (match["ring"] and _has_side(match) and (decimals or not match["spoken"]))
-        or (match["minutes"] and _has_side(match))
-        or decimals >= DIGITS_OF_DEGREES
-        or (_has_letter(match) and decimals >= 2)
-    )
-
-
-def _has_side(match: re.Match[str]) -> bool:
-    """Whether a number has a hemisphere."""
-    return bool(match["lead"] or match["hemisphere"])
-
-
-def _has_letter(match: re.Match[str]) -> bool:
-    """Whether a number has the letter of a hemisphere."""
-    return len((match["lead"] or match["hemisphere"] or "").strip(" ,")) == 1
-
-
-def _degrees(match: re.Match[str]) -> tuple[float, str]:
-    """The value of a coordinate, and "lat" or "lon" where that is said."""
-    letter = (match["lead"] or match["hemisphere"] or "").strip(" ,").lower()
-    said = (match["word"] or letter).strip().lower()
-    axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
-    degrees, minutes = match["degrees"] or match["whole"], match["minutes"] or match["packed"] or 0
-    seconds = match["seconds"] or match["sixtieths"] or 0
-    parts = (str(part).replace(",", ".") for part in (degrees, minutes, seconds))
-    value = sum(float(part) / 60**at for at, part in enumerate(parts))
-    return -value if match["sign"] in _MINUS or letter[:1] in ("s", "w") else value, axis
-
-
-def without_geographic(text: str) -> str:
-    """A text of the same length with blanks for its geographic positions."""
-    for place in read_geographic(text):
-        text = text[: place.start] + BLANK * (place.end - place.start) + text[place.end :]
-    return text
-
-
-# ---------------------------------------------------------------- local positions
 
 
 Placed = TypeVar("Placed", Number, Position)
@@ -276,13 +142,15 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
         start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)
         if between and not _CLOCK.fullmatch(text, start, second.stop):
-            plain = _AT.search(text[:start][-16:]) and _PLAIN.fullmatch(text[start:end])
+            plain = _AT.search(text[:start][-16:]) and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
             # "120 east 45 north", but not "40, 40 due east".
             way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
             rank = max(first.rank, second.rank)
-            for x, y in _readings(text, first, second):
-                place = Position(x, y, start, way.end() if way else end, bool(plain or opened))
+            led = None if way else _led(text, first, second)
+            for x, y in [led] if led else _readings(text, first, second):
+                certain = bool(plain or opened or led)
+                place = Position(x, y, start, way.end() if way else end, certain)
                 found[place] = min(rank, found.get(place, REREAD))
     # A sentence may say the unit of its positions: "fence corners, in kilometres: ...".
     known = list(found)
@@ -306,10 +174,22 @@ def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float,
         yield first.said, second.said
     if one[1] == "y" or two[1] == "x" or _Y_FIRST.search(text, *before):
         yield two[0], one[0]
-    led = [_along(first, _LED.search(text, *before)), _along(second, _LED.search(text, *between))]
-    by_axis = {axis: value for value, axis in led}
-    if {"x", "y"} <= by_axis.keys():
-        yield by_axis["x"], by_axis["y"]
+
+
+def _are_plain(text: str, first: Number, second: Number) -> bool:
+    """Whether numbers without units have a comma, or behind a digit a blank, between them."""
+    between, measured = text[first.end : second.start], first.unit or second.unit
+    blank = between.isspace() and text[first.end - 1].isdigit()
+    return (blank or between.strip() == ",") and not (measured or first.counts or second.counts)
+
+
+def _led(text: str, first: Number, second: Number) -> tuple[float, float] | None:
+    """The position of two numbers that both stand behind their direction: "E1200 N0"."""
+    behind = (max(0, first.start - 24), first.start), (first.stop, second.start)
+    ways = [_LED.search(text, *span) for span in behind]
+    numbers = zip((first, second), ways, strict=True)
+    by_axis = {axis: value for value, axis in (_along(*pair) for pair in numbers)}
+    return (by_axis["x"], by_axis["y"]) if {"x", "y"} <= by_axis.keys() else None
 
 
 def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None]:

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from planner_ft.facts import numbers, places
+from planner_ft.facts.geographic import Geographic, read_geographic, without_geographic
 from planner_ft.facts.numbers import THOROUGH
-from planner_ft.facts.places import Geographic, Position
+from planner_ft.facts.places import Position
 from planner_ft.facts.together import AS_BEFORE, BARE, IN_PAIR, REREAD, Number
 from planner_ft.facts.units import base_of, named
 from planner_ft.facts.words import SCALES, SMALL, UNITS, WORDS, Phrases, Span, is_known, phrases
@@ -111,7 +112,7 @@ class Facts:
     @functools.cached_property
     def geographic(self) -> tuple[Geographic, ...]:
         """Positions in degrees. They are neither local positions nor numbers."""
-        return places.read_geographic(self.text)
+        return read_geographic(self.text)
 
     @functools.cached_property
     def bearings(self) -> tuple[Number, ...]:
@@ -136,7 +137,7 @@ class Facts:
     @functools.cached_property
     def unread(self) -> tuple[str, ...]:
         """Why numbers of the text could not be read with certainty, for an operator."""
-        return tuple(_notes(places.without_geographic(self.text)[:THOROUGH]))
+        return tuple(_notes(without_geographic(self.text)[:THOROUGH]))
 
     @functools.cached_property
     def loose(self) -> tuple[float, ...]:
@@ -196,7 +197,7 @@ class Facts:
     @functools.cached_property
     def _local(self) -> str:
         """The text with blanks for geographic positions."""
-        return places.without_geographic(self.text)
+        return without_geographic(self.text)
 
     @property
     def _all(self) -> tuple[Number, ...]:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner_ft.facts import Geographic, Span
-from planner_ft.facts.places import read_geographic
+from planner_ft.facts.geographic import read_geographic
 from planner_ft.support.geodesy import NEAREST_POLE, Origin
 from planner_ft.vocabulary import Vocabulary
 

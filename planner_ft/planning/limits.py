@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.facts import read
-from planner_ft.facts.places import rows_of, without_geographic, written_positions
+from planner_ft.facts.geographic import without_geographic
+from planner_ft.facts.places import rows_of, written_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.limits import (
     Limit,

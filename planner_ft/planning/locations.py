@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.facts.places import read_geographic
+from planner_ft.facts.geographic import read_geographic
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.support.geodesy import Origin

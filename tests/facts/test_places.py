@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
-from planner_ft.facts.places import lone_coordinates, read_positions, rows_of, written_positions
+from planner_ft.facts.geographic import lone_coordinates
+from planner_ft.facts.places import read_positions, rows_of, written_positions
 
 
 def stated(text: str, position: list[float]) -> bool:
@@ -167,12 +168,15 @@ POSITIONS = """
     40 metres to the east, 12 to the north of home => 40,12 <40 metres to the east, 12 to the north>
     40 west, 12 south => -40,-12 <40 west, 12 south>!
     40 south 12 east => -40,12 <40 south 12 east>!; 12,-40 <40 south 12 east>!
-    south 40, east 12 => 40,12 <40, east 12>; 12,-40 <40, east 12>
-    east 40 north 12 => 40,12 <40 north 12>!; 12,40 <40 north 12>!
-    north 40 east 12 => 40,12 <40 east 12>!; 12,40 <40 east 12>!
-    easting 40 northing 12 => 40,12 <40 northing 12>; 12,40 <40 northing 12>
+    south 40, east 12 => 12,-40 <40, east 12>!
+    east 40 north 12 => 40,12 <40 north 12>!
+    north 40 east 12 => 12,40 <40 east 12>!
+    easting 40 northing 12 => 40,12 <40 northing 12>!
     40E 12N => 40,12 <40E 12>
-    W40 S12 => -40,12 <40 S12>; 40,12 <40 S12>; 12,-40 <40 S12>; -40,-12 <40 S12>
+    W40 S12 => -40,-12 <40 S12>!
+    E1200 N0 => 1200,0 <1200 N0>!
+    at minus twenty, minus five => -20,-5 <minus twenty, minus five>!
+    at twenty, thirty metres => 20,30 <twenty, thirty metres>
     40, 40 due east => 40,40 <40, 40>
     120 east 45 north => 120,45 <120 east 45 north>!
     from 22/98 westwards => 22,-98 <22/98>; 22,98 <22/98>; -98,22 <22/98>
@@ -218,6 +222,7 @@ GEOGRAPHIC = """
     54,3208° North, 10,1421° East => 54.3208,10.1421 <54,3208° North, 10,1421° East>
     40,20° to port =>
     36-07-30N 005-21-15W => 36.125,-5.354167 <36-07-30N 005-21-15W>
+    33 51 30 S, 151 12 36 E => -33.858333,151.21 <33 51 30 S, 151 12 36 E>
     54°19'18"N 10°08'30"E => 54.32167,10.14167 <54°19'18"N 10°08'30"E>
     54° 19.3' N, 10° 8.5' W => 54.32167,-10.14167 <54° 19.3' N, 10° 8.5' W>
     54° N 10° E => 54,10 <54° N 10° E>

@@ -59,10 +59,25 @@ CHECKS: tuple[Check, ...] = (
     route.performed,
     *(places.unmoved, places.round_home, said.intervals, said.endless),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
-    *(said.clock_times, places.geographic, places.rows, places.uneven_rows, places.unvisited),
-    *(places.positions, said.limits, said.repeats, said.devices, directions.laid_otherwise),
+    *(
+        said.crossed,
+        said.clock_times,
+        places.geographic,
+        places.rows,
+        places.uneven_rows,
+        places.unvisited,
+    ),
+    *(
+        places.positions,
+        places.passed,
+        said.limits,
+        said.repeats,
+        said.devices,
+        directions.laid_otherwise,
+    ),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsought),
+    *(values.unmentioned, values.declined),
     *(values.unsaid_skills, places.done_again, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""

@@ -16,15 +16,10 @@ from typing import Any, Literal
 from planner_ft.document.language import Clause, language, read_clauses
 from planner_ft.document.track import Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
+from planner_ft.facts.geographic import without_geographic
 from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_numbers
-from planner_ft.facts.places import (
-    read_positions,
-    rows_of,
-    rows_of_sizes,
-    without_geographic,
-    written_positions,
-)
+from planner_ft.facts.places import read_positions, rows_of, rows_of_sizes, written_positions
 from planner_ft.facts.units import in_base_units
 from planner_ft.planning.frame import frame_of
 from planner_ft.support.files import read_toml
@@ -94,9 +89,12 @@ def named(task: Entry) -> str:
     return f"task {task['number']}, {task['title']}"
 
 
-def lost(words: str) -> Warning:
-    """A value of the command that the plan has not."""
-    return warning("value-lost", "value", about=words.casefold(), words=words)
+def lost(words: str, clause: str = "") -> Warning:
+    """A value of the command that the plan has not, shown with the clause that it stands in."""
+    told, about = quoted(clause.strip(" ,;.:!?")), words.casefold()
+    if told.casefold() == about or words not in told:
+        return warning("value-lost", "value", about=about, words=words)
+    return warning("value-lost", "within", about=about, words=words, clause=told)
 
 
 class Case:
@@ -126,7 +124,7 @@ class Case:
 
     @functools.cached_property
     def plan(self) -> PlanValues:
-        return PlanValues(self.document, self.source)
+        return PlanValues(self.document, self.source, self.positions)
 
     @property
     def texts(self) -> list[str]:
@@ -138,10 +136,17 @@ class Case:
         at = bisect.bisect(self.clauses, place, key=lambda one: one.start) - 1
         return self.clauses[at] if at >= 0 and place < self.clauses[at].end else None
 
+    def lost(self, start: int, end: int) -> Warning:
+        """Words of the text as a value that the plan has not."""
+        clause = self.clause_at(start)
+        return lost(self.text[start:end], clause.text if clause else "")
+
     def wants(self, place: int) -> bool:
         """Whether words at a place of the text are neither ruled out nor taken back."""
         clause = self.clause_at(place)
-        return clause is None or (clause.wants(place) and not clause.corrected)
+        if clause is None or clause.corrected:
+            return clause is None
+        return clause.wants(place) or (clause.resumed is not None and place >= clause.resumed)
 
 
 def skills_of(task: Entry) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -154,10 +159,10 @@ Check = Callable[[Case], Iterator[Warning]]
 
 class PlanValues:
     """The values of a plan: of tasks with their skills, of limits, and places in texts. `gone` are
-    its waypoints in order.
+    its waypoints in order, `meant` the places that tasks and limits have. Coordinates of positions that the command says (`said`) are no numbers.
     """
 
-    def __init__(self, document: Entry, command: Input) -> None:
+    def __init__(self, document: Entry, command: Input, said: Sequence[Position]) -> None:
         tasks, limits = document["tasks"], document.get("limits", ())
         skills = [skill for task in tasks for _role, skill in skills_of(task)]
         given = [owner["parameters"] for owner in (*tasks, *skills)]
@@ -193,10 +198,14 @@ class PlanValues:
         # A command that gives an area by its corners says these.
         corners += [corner for task in tasks for corner in _area_corners(task["parameters"])]
         self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
-        spoken = [number for line in texts for number in read_numbers(line)]
+        prompted = [place for task in tasks for place in read_positions(task["task_prompt"])]
+        meant = [*places, *corners, *filter(is_place, self.limits)]
+        self.meant = [*meant, *((place.x, place.y) for place in prompted)]
         self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
-        said = (part for one in spoken for part in (one.value, one.said))
-        self.anywhere = {*_flat(own), *base, *said}
+        self.anywhere = {*self.numbers, *self.limited}
+        self.anywhere |= {part for line in texts for part in _spoken(line, said)}
+        derived = (at for at in (*places, *gone, *corners) if not _is_said(at, said))
+        self.anywhere |= {part for at in derived for part in at}
         self.anywhere |= set(_ways([*places, *read], command))
         if any(command.vocabulary.task[task["title"]].pattern == "sectors" for task in tasks):
             self.anywhere.add(FULL)
@@ -260,12 +269,18 @@ class PlanValues:
         return any(self.often.count(item) >= count for item in set(self.often))
 
 
-def _flat(value: Any) -> Iterator[float]:
-    if is_number(value):
-        yield float(value)
-    elif isinstance(value, list):
-        for item in value:
-            yield from _flat(item)
+def _is_said(place: Sequence[float], said: Iterable[Position]) -> bool:
+    return any(same_place(one, place) for one in said)
+
+
+def _spoken(line: str, said: Sequence[Position]) -> Iterator[float]:
+    """The numbers of a text, as they are said and in their units, but for those of positions that
+    the command says.
+    """
+    known = [one for one in written_positions(line) if _is_said((one.x, one.y), said)]
+    for number in read_numbers(line):
+        if not any(one.start <= number.start < one.end for one in known):
+            yield from (number.value, number.said)
 
 
 def _area_corners(values: Entry) -> list[tuple[float, float]]:

@@ -1,16 +1,20 @@
 """Places of the command that the plan has not, or has otherwise."""
 
+import itertools
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
-from planner_ft.document.structures import OVER, ROUND, bars, structures
+from planner_ft.document.structures import OVER, ROUND, bars, structures, way_off
 from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
 from planner_ft.facts import Position, near
-from planner_ft.facts.places import lone_coordinates, read_geographic, rows_of
+from planner_ft.facts.geographic import lone_coordinates, read_geographic
+from planner_ft.facts.places import rows_of
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry, Vocabulary
 
@@ -31,11 +35,30 @@ def positions(case: Case) -> Iterator[Warning]:
     for place in missing:
         kept_off = any(same_place(place, one.position) for one in known)
         if not (kept_off and _is_told_of(place, case)):
-            yield lost(case.text[place.start : place.end])
+            yield case.lost(place.start, place.end)
     for start, end in lone_coordinates(case.text):
         words = case.text[start:end].strip()
         if words.casefold() not in case.plan.texts:
             yield lost(words)
+
+
+def passed(case: Case) -> Iterator[Warning]:
+    """Positions of the command that neither a task nor a limit has, where legs come as close as
+    they may to no structure: what is there is not said.
+    """
+    nearest = case.vehicle.get("stand_off", STAND_OFF)
+    for place in (one for one in case.positions if case.wants(one.start)):
+        at = place.x, place.y
+        meant = any(same_place(place, other) for other in case.plan.meant)
+        if meant or at == case.vocabulary.home or not case.plan.has(place):
+            continue
+        pairs = ((leg, pair) for leg in case.path.legs for pair in itertools.pairwise(leg.points))
+        ways = ((way_off(at, *pair), leg.task) for leg, pair in pairs)
+        metres, name = min(ways, default=(nearest, ""))
+        if metres < nearest:
+            where, task = shown(at), case.by_id[name]
+            known: dict[str, Any] = {"about": where, "place": where, "metres": metres}
+            yield warning("structure-close", "passed", task, **known)
 
 
 def _is_told_of(place: Position, case: Case) -> bool:

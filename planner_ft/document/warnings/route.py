@@ -11,10 +11,11 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause
-from planner_ft.document.structures import MOVING, Structure, close_legs, way_off
+from planner_ft.document.structures import MOVING, Structure, close_legs, closed_area, way_off
 from planner_ft.document.track import Leg, Point, place_of, shown, stated
 from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
-from planner_ft.facts.places import read_geographic, read_positions
+from planner_ft.facts.geographic import read_geographic
+from planner_ft.facts.places import read_positions
 from planner_ft.planning.limits import last_away, time_left, without_limits
 from planner_ft.planning.shapes import goal_of, shape_problem
 from planner_ft.vocabulary import Entry, Vocabulary
@@ -194,16 +195,16 @@ def _broken(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
 def _area(kind: str, corners: Any, legs: list[Leg]) -> Found:
     from shapely import LineString, Point, Polygon, make_valid
 
-    area, inside = make_valid(Polygon(corners)), kind == "fence"
-    bounds = area.buffer(TOLERANCE if inside else -TOLERANCE)
+    inside = kind == "fence"
+    area = make_valid(Polygon(corners)).buffer(TOLERANCE) if inside else closed_area(corners)
     for leg in legs:
         line = LineString(leg.points) if len(leg.points) > 1 else Point(leg.points[0])
-        if inside and not bounds.covers(line):
-            ends = (point for point in leg.points if not bounds.covers(Point(point)))
+        if inside and not area.covers(line):
+            ends = (point for point in leg.points if not area.covers(Point(point)))
             at = next(ends, None)
             where = f"goes to {shown(at)}, outside of it" if at else "leaves it on the way"
             return leg.task, where
-        if not inside and bounds.intersects(line):
+        if not inside and area.intersects(line):
             return leg.task, f"enters it on the way to {shown(leg.points[-1])}"
     return None
 

@@ -23,7 +23,7 @@ from planner_ft.document.warnings.case import (
 )
 from planner_ft.facts import Number, is_place, near
 from planner_ft.facts.numbers import read_times
-from planner_ft.facts.places import is_course, rows_of, rows_of_sizes
+from planner_ft.facts.places import is_course, read_positions, rows_of, rows_of_sizes
 from planner_ft.facts.together import neighbours
 from planner_ft.vocabulary import Vocabulary
 
@@ -41,6 +41,9 @@ CORRECTED = 30  # characters between a value and its correction
 SENTENCE = re.compile(r"^|[.!?;]\s")
 WAITING = ("hold", "follow", "drift", "visual")
 """Patterns of tasks that can go on for as long as nobody says otherwise."""
+AT = re.compile(r"\bat $", re.IGNORECASE)
+APART = 0.5  # metres beyond a line
+HOURS = 12  # the last one: "at six" is a time of day
 EVERY = re.compile(r"\b(?:every|each) $", re.IGNORECASE)
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
@@ -78,7 +81,7 @@ def measures(case: Case) -> Iterator[Warning]:
         later = [one for one in later if one.unit or one.start <= after]
         other = next((one for one in later if one.unit in (None, number.unit)), None)
         if other is None:
-            yield lost(text[wholes[0].start : wholes[0].end])
+            yield case.lost(wholes[0].start, wholes[0].end)
         else:
             instead.remove(other)
 
@@ -92,7 +95,7 @@ def intervals(case: Case) -> Iterator[Warning]:
         every = EVERY.search(case.text[: number.start])
         known = [*case.plan.numbers, *apart]
         if every and not any(near(number.value, other) for other in known):
-            yield lost(case.text[every.start() : number.end])
+            yield case.lost(every.start(), number.end)
 
 
 def unclear(case: Case) -> Iterator[Warning]:
@@ -135,7 +138,7 @@ def _instead(case: Case) -> list[Number]:
 def bare_numbers(case: Case) -> Iterator[Warning]:
     """Numbers without a unit that are values all the same: behind the name of a parameter
     ("radius 15"), in a row of sizes ("20x20x5"), in place of an earlier value, or at the end of a
-    clause ("give it five"); and the last one that counts a parameter ("12 sectors").
+    clause ("give it five", "at 35"); and the last one that counts a parameter ("12 sectors").
     """
     plain = [one for one in case.numbers if one.unit is None and case.wants(one.start)]
     counted = {}
@@ -143,6 +146,13 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         if match := _counts(case.vocabulary).match(case.text, number.end):
             counted[match[1].casefold()] = number
     last_counted = list(counted.values())
+    sizes = [(row, case.plan.missing_sizes(row)) for row in rows_of_sizes(case.text)]
+    # "Thirty by thirty, no, thirty by fifty": the last of a length counts.
+    apart = {
+        one.start
+        for _row, lacked in {len(row): (row, lacked) for row, lacked in sizes}.values()
+        for one in lacked
+    }
     for number in plain:
         clause = case.clause_at(number.start)
         inside = any(place.start <= number.start < place.end for place in case.positions)
@@ -159,11 +169,27 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         behind = behind or _shots(number, case)
         if last and number.value >= 2:
             behind = behind or _ends_with(case.words["measured"], before)
+            behind = behind or (number.value > HOURS and AT.search(before) is not None)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if instead and number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)
-        if (bare or instead or behind) and not known:
-            yield lost(case.text[number.start : number.end])
+        if number.start in apart or ((bare or instead or behind) and not known):
+            yield case.lost(number.start, number.end)
+
+
+def crossed(case: Case) -> Iterator[Warning]:
+    """A line such as "x = 100" on both sides of which the plan goes: it may be a limit."""
+    paired = [(place.start, place.end) for place in read_positions(case.text)]
+    for number in (one for one in case.numbers if one.unit in (None, "m")):
+        before = case.text[: number.start]
+        axis = None if SIZES.search(before) else AXIS.search(before)
+        if axis and not any(start <= number.start < end for start, end in paired):
+            at = "xy".index(axis[0][0].lower())
+            points = [point[at] for leg in case.path.legs for point in leg.points]
+            beyond = [one - number.value for one in points]
+            if beyond and min(beyond) < -APART and max(beyond) > APART:
+                words = case.text[number.start - len(axis[0]) : number.end]
+                yield warning("limit-lost", "crossed", about=words.casefold(), words=words)
 
 
 def _shots(number: Number, case: Case) -> bool:

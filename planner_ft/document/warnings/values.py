@@ -4,8 +4,9 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from planner_ft.document.structures import structures
 from planner_ft.document.warnings.asked import UNKNOWN
-from planner_ft.document.warnings.case import Case, Warning, quoted, warning
+from planner_ft.document.warnings.case import LONGER, STEM, Case, Warning, quoted, warning
 from planner_ft.facts import (
     SCORING,
     WAYPOINT,
@@ -101,6 +102,44 @@ def unheard(case: Case) -> Iterator[Warning]:
         if made:
             listed = ", ".join(f'"{word}"' for word in made)
             yield warning("value-not-said", "word", task, about=" ".join(made), words=listed)
+
+
+def unmentioned(case: Case) -> Iterator[Warning]:
+    """Things that stand in the water or bar a way, named in a clause without a place that asks for
+    nothing, of which nothing in the plan speaks.
+    """
+    names = [one.name for one in structures(case.document, case.vocabulary)]
+    objects = [str(limit["values"].get("object", "")) for limit in case.limits]
+    known = " ".join([case.plan.words, *names, *objects]).casefold()
+    asking = [case.words["verb"], case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
+    for clause in (one for one in case.clauses if not one.corrected):
+        placed = any(clause.start <= place.start < clause.end for place in case.positions)
+        if placed or any(words.search(clause.text) for words in asking):
+            continue
+        for kind in ("standing", "bars"):
+            for start, end in clause.spans(case.words[kind]):
+                thing = case.text[start:end].casefold()
+                itself = case.words["itself"].fullmatch(thing)
+                if not itself and thing[: STEM - 1] not in known:
+                    said = quoted(clause.text.strip(" ,;."))
+                    yield warning("thing-not-mentioned", about=thing, name=thing, words=said)
+
+
+def declined(case: Case) -> Iterator[Warning]:
+    """Constraints by which the plan leaves out what no word of the command asks for."""
+    spoken = words(case.command)
+    for line in case.document.get("constraints", ()):
+        no = case.words["declined"].search(line)
+        left = [one for one in words(line[no.end() :]) if LONGER.fullmatch(one)] if no else []
+        if left and not any(_akin(one, other) for one in left for other in spoken):
+            yield warning(
+                "value-not-said", "declined", about=line.casefold(), words=line.rstrip(".")
+            )
+
+
+def _akin(word: str, other: str) -> bool:
+    """Whether two words begin alike: "jamming" and "jam"."""
+    return min(len(word), len(other)) > 2 and word[: STEM - 1].startswith(other[: STEM - 1])
 
 
 def _is_heard(word: str, told: str, said: list[str]) -> bool:

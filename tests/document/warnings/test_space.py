@@ -58,6 +58,34 @@ def test_a_limit_of_space_is_kept_to_half_a_metre(
     )
 
 
+def test_an_area_without_an_inside_is_a_line_that_is_not_crossed() -> None:
+    line = "The vehicle stays outside [50, -20], [50, -20], [50, 20]."
+    assert broken(line, go((100, 0)))
+    assert not broken(line, go((40, 0)))
+
+
+def test_legs_over_a_place_that_no_task_and_no_limit_has_are_told() -> None:
+    def passes(command: str, *points: tuple[float, float], constraint: str = "") -> list[str]:
+        plan = document([go(*points)], command=command, constraints=[constraint])
+        return told(plan, "structure-close")
+
+    rock = "Watch for the thing at 60 30 and go to [120, 60]."
+    prose = "The vehicle has no task for watching at [60, 30]."
+    (found,) = passes(rock, (120, 60), constraint=prose)
+    assert "[60, 30], which the command names and neither a task nor a limit has" in found
+    assert not passes(rock, (0, 60), (120, 60), constraint=prose)
+    assert not passes("Go to [120, 60].", (120, 60))
+
+
+@pytest.mark.parametrize(
+    ("said", "count"), [("x = 50", 1), ("y=50", 0), ("x = 100", 0), ("100 x 50", 0)]
+)
+def test_a_line_that_the_plan_goes_across_is_told(said: str, count: int) -> None:
+    plan = document([go((100, 0))], command=f"Go to [100, 0]. The permit ends at {said}.")
+    crossed = [one for one in told(plan, "limit-lost") if "to both sides of it" in one]
+    assert len(crossed) == count
+
+
 def off(metres: float, *points: tuple[float, float]) -> list[str]:
     """What is told of a limit around [50, 0] where no way round it is looked for."""
     plan = document([go(*points)], constraints=[WRECK.format(metres)])

@@ -167,3 +167,26 @@ def test_a_place_that_follows_is_named_where_a_place_is_only_told_of() -> None:
     command = "Go to [30, 40], then 10 m further north. A boom lies from 90,0 to 90,20."
     (found,) = texts(document([to(GO), near], command=command), "value-not-said")
     assert "[30, 50], which is worked out" in found
+
+
+@pytest.mark.parametrize(
+    ("command", "constraint", "kind", "count"),
+    [
+        ("Go to [30, 40]. There's a mast in the middle.", "", "thing-not-mentioned", 1),
+        ("Go to [30, 40]. There's a mast in it.", "Mind the mast.", "thing-not-mentioned", 0),
+        ("Go to [30, 40]. I want the boat back soon.", "", "thing-not-mentioned", 0),
+        ("Go to [30, 40]. Circle the mast.", "", "thing-not-mentioned", 0),
+        ("Go to [30, 40].", "The vehicle has no task for shopping.", "value-not-said", 1),
+        ("Shop, go to [30, 40].", "The vehicle has no task for shopping.", "value-not-said", 0),
+        ("Jam it, go to [30, 40].", "The vehicle has no task for jamming.", "value-not-said", 0),
+    ],
+)
+def test_things_and_tasks_that_are_not_there_are_those_of_the_command(
+    command: str, constraint: str, kind: str, count: int
+) -> None:
+    assert len(texts(document([to()], command=command, constraints=[constraint]), kind)) == count
+
+
+def test_a_lost_value_is_shown_with_its_clause() -> None:
+    found = texts(document([to()], command="Go to [30, 40], hold for 5 minutes."), "value-lost")
+    assert found == ['The command says "5 minutes" ("hold for 5 minutes"), and no task has it.']
