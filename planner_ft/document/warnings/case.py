@@ -9,7 +9,7 @@ import functools
 import itertools
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -159,7 +159,8 @@ Check = Callable[[Case], Iterator[Warning]]
 
 class PlanValues:
     """The values of a plan: of tasks with their skills, of limits, and places in texts. `gone` are
-    its waypoints in order, `meant` the places that tasks and limits have. Coordinates of positions that the command says (`said`) are no numbers.
+    its waypoints in order, `meant` the places that tasks and limits have, each as `spot`s.
+    Coordinates of positions that the command says (`said`) are no numbers.
     """
 
     def __init__(self, document: Entry, command: Input, said: Sequence[Position]) -> None:
@@ -200,11 +201,12 @@ class PlanValues:
         self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
         prompted = [place for task in tasks for place in read_positions(task["task_prompt"])]
         meant = [*places, *corners, *filter(is_place, self.limits)]
-        self.meant = [*meant, *((place.x, place.y) for place in prompted)]
+        self.meant = {*map(spot, meant), *(spot((one.x, one.y)) for one in prompted)}
+        stated = {spot((one.x, one.y)) for one in said}
         self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
         self.anywhere = {*self.numbers, *self.limited}
-        self.anywhere |= {part for line in texts for part in _spoken(line, said)}
-        derived = (at for at in (*places, *gone, *corners) if not _is_said(at, said))
+        self.anywhere |= {part for line in texts for part in _spoken(line, stated)}
+        derived = (at for at in (*places, *gone, *corners) if spot(at) not in stated)
         self.anywhere |= {part for at in derived for part in at}
         self.anywhere |= set(_ways([*places, *read], command))
         if any(command.vocabulary.task[task["title"]].pattern == "sectors" for task in tasks):
@@ -269,15 +271,16 @@ class PlanValues:
         return any(self.often.count(item) >= count for item in set(self.often))
 
 
-def _is_said(place: Sequence[float], said: Iterable[Position]) -> bool:
-    return any(same_place(one, place) for one in said)
+def spot(place: Sequence[float]) -> tuple[float, ...]:
+    """A place to a decimetre."""
+    return tuple(round(part, 1) for part in place)
 
 
-def _spoken(line: str, said: Sequence[Position]) -> Iterator[float]:
+def _spoken(line: str, stated: Container[tuple[float, ...]]) -> Iterator[float]:
     """The numbers of a text, as they are said and in their units, but for those of positions that
-    the command says.
+    the command has `stated`.
     """
-    known = [one for one in written_positions(line) if _is_said((one.x, one.y), said)]
+    known = [one for one in written_positions(line) if spot((one.x, one.y)) in stated]
     for number in read_numbers(line):
         if not any(one.start <= number.start < one.end for one in known):
             yield from (number.value, number.said)

@@ -11,7 +11,7 @@ from planner_ft.document.structures import OVER, ROUND, bars, structures, way_of
 from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings import picked
-from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, warning
+from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, spot, warning
 from planner_ft.facts import Position, near
 from planner_ft.facts.geographic import lone_coordinates, read_geographic
 from planner_ft.facts.places import rows_of
@@ -49,8 +49,7 @@ def passed(case: Case) -> Iterator[Warning]:
     nearest = case.vehicle.get("stand_off", STAND_OFF)
     for place in (one for one in case.positions if case.wants(one.start)):
         at = place.x, place.y
-        meant = any(same_place(place, other) for other in case.plan.meant)
-        if meant or at == case.vocabulary.home or not case.plan.has(place):
+        if spot(at) in case.plan.meant or at == case.vocabulary.home or not case.plan.has(place):
             continue
         pairs = ((leg, pair) for leg in case.path.legs for pair in itertools.pairwise(leg.points))
         ways = ((way_off(at, *pair), leg.task) for leg, pair in pairs)

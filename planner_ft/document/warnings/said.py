@@ -181,7 +181,7 @@ def crossed(case: Case) -> Iterator[Warning]:
     """A line such as "x = 100" on both sides of which the plan goes: it may be a limit."""
     paired = [(place.start, place.end) for place in read_positions(case.text)]
     for number in (one for one in case.numbers if one.unit in (None, "m")):
-        before = case.text[: number.start]
+        before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
         axis = None if SIZES.search(before) else AXIS.search(before)
         if axis and not any(start <= number.start < end for start, end in paired):
             at = "xy".index(axis[0][0].lower())

@@ -113,16 +113,15 @@ def unmentioned(case: Case) -> Iterator[Warning]:
     known = " ".join([case.plan.words, *names, *objects]).casefold()
     asking = [case.words["verb"], case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
     for clause in (one for one in case.clauses if not one.corrected):
+        spans = [at for kind in ("standing", "bars") for at in clause.spans(case.words[kind])]
+        things = [case.text[start:end].casefold() for start, end in spans]
+        new = [one for one in things if one[: STEM - 1] not in known]
+        new = [one for one in new if not case.words["itself"].fullmatch(one)]
         placed = any(clause.start <= place.start < clause.end for place in case.positions)
-        if placed or any(words.search(clause.text) for words in asking):
-            continue
-        for kind in ("standing", "bars"):
-            for start, end in clause.spans(case.words[kind]):
-                thing = case.text[start:end].casefold()
-                itself = case.words["itself"].fullmatch(thing)
-                if not itself and thing[: STEM - 1] not in known:
-                    said = quoted(clause.text.strip(" ,;."))
-                    yield warning("thing-not-mentioned", about=thing, name=thing, words=said)
+        if new and not placed and not any(words.search(clause.text) for words in asking):
+            said = quoted(clause.text.strip(" ,;."))
+            for thing in new:
+                yield warning("thing-not-mentioned", about=thing, name=thing, words=said)
 
 
 def declined(case: Case) -> Iterator[Warning]:
