@@ -17,6 +17,7 @@ from planner_ft.document.structures import (
     along,
     berth,
     fence,
+    posts,
     runs_along,
     structures,
 )
@@ -35,8 +36,8 @@ Marks = list[dict[str, Any]]
 def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     """The tasks of a plan with steps that keep clear of its structures, where there is a way."""
     tasks: list[dict[str, Any]] = list(document["tasks"])
-    known = structures(document, vocabulary)
-    if not known or not vocabulary.motion.skills:
+    known, beside = structures(document, vocabulary), posts(document, vocabulary)
+    if not (known or beside) or not vocabulary.motion.skills:
         return tasks
     pen = Pen(vocabulary, document.get("vehicle") or {})
     allowed, done = fence(document, vocabulary), []
@@ -51,7 +52,7 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
         faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
         walls = [wall for face in faces if face for wall in _walls(face)]
         circle = reached or circle_of(task, vocabulary)
-        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1], berths)
+        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1], berths, beside)
         done.append(clearing.cleared(allowed, _onward(following, vocabulary)))
     return done
 
@@ -85,9 +86,10 @@ class _Steps:
         pen: Pen,
         face: Face | None,
         berths: set[Point],
+        beside: Sequence[Point],
     ) -> None:
         self.task, self.known, self.circle, self.pen, self.face = task, known, circle, pen, face
-        self.berths = berths
+        self.berths, self.beside = berths, beside
         self.steps: list[Step] = []
         self.marks: Marks = []
 
@@ -103,7 +105,7 @@ class _Steps:
                 # What a berth lies beside does not bar the way to it.
                 docked = self.berths & {here, goal}
                 known = [one for one in self.known if not any(one.blocks(at, at) for at in docked)]
-                for point in way_round(here, goal, known, allowed):
+                for point in way_round(here, goal, known, allowed, self.beside):
                     self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
             self._add(moved, own, "ends at the stand-off" if moved is not step else "")
         entry = {**self.task, "skill_sequence": self.steps}
@@ -185,17 +187,23 @@ class _Steps:
 
 
 def way_round(
-    start: Point, goal: Point, known: Sequence[Structure], allowed: Allowed
+    start: Point,
+    goal: Point,
+    known: Sequence[Structure],
+    allowed: Allowed,
+    beside: Sequence[Point] = (),
 ) -> list[Point]:
-    """Waypoints of the shortest way that no structure blocks; none where there is no other way.
+    """Waypoints of the shortest way that no structure blocks and all legs of which are `allowed`,
+    also over points `beside` closed areas; none where there is no other way.
 
     Where start or goal lie within a stand-off, the way comes no nearer to that structure than they
     do; the warnings say that they are too close.
     """
     zones = [_as_far_as(one, start, goal) for one in known]
     used = [one for one in zones if one.blocks(start, goal)]
-    for _round in range(MOST_ROUNDS if used else 0):
-        path = _shortest(start, goal, used, allowed)
+    barred = used or (beside and not allowed(start, goal))
+    for _round in range(MOST_ROUNDS if barred else 0):
+        path = _shortest(start, goal, used, allowed, beside)
         legs = list(itertools.pairwise(path))
         rest = [one for one in zones if one not in used]
         met = [one for one in rest if any(one.blocks(*leg) for leg in legs)]
@@ -212,10 +220,10 @@ def _as_far_as(structure: Structure, *ends: Point) -> Structure:
 
 
 def _shortest(
-    start: Point, goal: Point, zones: Sequence[Structure], allowed: Allowed
+    start: Point, goal: Point, zones: Sequence[Structure], allowed: Allowed, beside: Sequence[Point]
 ) -> list[Point]:
-    """The shortest way over the corners of zones; empty where there is none."""
-    points = [goal, *(corner for zone in zones for corner in zone.corners())]
+    """The shortest way over the corners of zones and points; empty where there is none."""
+    points = [goal, *beside, *(corner for zone in zones for corner in zone.corners())]
     queue: list[tuple[float, list[Point]]] = [(0.0, [start])]
     reached = set[Point]()
     while queue:

@@ -130,14 +130,39 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
         for start, end in named
         if end not in own and is_thing(text[start:end], vocabulary)
     ]
-    several = dict[int, str]()
-    for row in rows_of(text, written_positions(text)):
+    written = written_positions(text)
+    told, several = dict(_told_things(text, written, vocabulary)), dict[int, str]()
+    for row in rows_of(text, written):
         words = _words_before(text, row[0].start, things)
         several |= {place.start: words for place in row[1:] if words.endswith("s")}
     for place in read_positions(text):
         words = _words_beside(text, place, things) if place.certain else ""
-        if words := words or several.pop(place.start, ""):
+        if not place.certain and place in written:
+            beside = (at for at in bare if text[at[1] : place.start].isspace())
+            words = next((text[start:end] for start, end in beside), "")
+        if not stands(words, vocabulary):
+            words = told.pop(place.start, "") or words or several.pop(place.start, "")
+        if words:
             yield words, place
+
+
+def _told_things(
+    text: str, written: list[Position], vocabulary: Vocabulary
+) -> Iterator[tuple[int, str]]:
+    """(start of a position, words) where a clause tells that one thing stands at one position:
+    "the wreck's mast is sticking out of the water at".
+    """
+    spoken = language(vocabulary)
+    asking = [spoken.words["verb"], spoken.sensors, *(ask.said for ask in spoken.asks)]
+    for clause in read_clauses(text, vocabulary):
+        inside = [one for one in written if clause.start <= one.start < clause.end]
+        things = _spans(spoken.words["standing"], clause.text)
+        if len(inside) == len(things) == 1 and spoken.words["tells"].search(clause.text):
+            start, end = things[0]
+            before = spoken.words["determiner"].search(clause.text[:start].rstrip() + " ")
+            itself = spoken.words["itself"].fullmatch(clause.text, start, end) and before
+            if not itself and not any(words.search(clause.text) for words in asking):
+                yield inside[0].start, clause.text[start:end]
 
 
 def _numbered(text: str, end: int) -> int:

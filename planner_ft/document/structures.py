@@ -194,6 +194,18 @@ def fence(document: Entry, vocabulary: Vocabulary) -> Allowed:
     return stays
 
 
+def posts(document: Entry, vocabulary: Vocabulary) -> list[Point]:
+    """Waypoints beside the corners of the plan's closed areas, by which legs lead round them."""
+    limits = limits_of(document, vocabulary)
+    areas = [limit["values"]["polygon"] for limit in limits if limit["kind"] == "keep_out_area"]
+    if not areas:
+        return []
+    from shapely import Polygon, make_valid
+
+    wider = (make_valid(Polygon(one)).buffer(2 * MARGIN, join_style="mitre") for one in areas)
+    return [(x, y) for area in wider for x, y in area.convex_hull.exterior.coords[1:]]
+
+
 def closed_area(corners: Sequence[Point]) -> Any:
     """The inside of an area without its edge (shapely); the line of one that has no inside."""
     from shapely import Polygon, make_valid

@@ -19,13 +19,13 @@ _COORDINATE = re.compile(
     r"(?P<sign>[-−–+])?"
     r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|(?=[\s-]?[0-5]\d)))"
     r"(?:[\s-]?(?P<sixtieths>[0-5]\d(?:\.\d+)?))?(?(lead)|(?=[\s,]?[NSEW](?![A-Za-z])))"
-    r"|(?P<degrees>\d{1,3}(?:\.\d+|,\d{2,}(?=\s?[°º˚]))?)(?![\d.]*\d))"
+    r"|(?P<degrees>\d{1,3}(?:\.\d+|,\d{2,}(?=\s?[°º˚])|,\d{4,}(?=\s?[NSEWO]))?)(?![\d.]*\d))"
     r"(?P<ring>\s?(?:[°º˚]|(?P<spoken>(?i:deg(?:rees?)?)\b\.?))\s?"
     r"(?:(?:(?i:and) )?(?P<minutes>\d{1,2}(?:[.,]\d+)?)\s?(?:['′’]|(?i:min(?:utes?)?)\b\.?)\s?"
     r"(?:(?:(?i:and) )?(?P<seconds>\d{1,2}(?:[.,]\d+)?)\s?"
     r"(?:[\"″”]|''|’’|(?i:sec(?:onds?)?)\b\.?)\s?)?)?)?"
     r"(?(lead)|(?P<hemisphere>"
-    r"(?:\s|(?<=\d),)?(?:[NSEW](?![A-Za-z_])|(?i:north|south|east|west)\b))?)"
+    r"(?:\s|(?<=\d),)?(?:[NSEW](?![A-Za-z_])|(?i:north|south|east|west|nord|süd|ost)\b))?)"
 )
 """`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N; 480702N) or as
 they are spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N", "48 07 02 N".
@@ -117,7 +117,7 @@ def _degrees(match: re.Match[str]) -> tuple[float, str]:
     """The value of a coordinate, and "lat" or "lon" where that is said."""
     letter = (match["lead"] or match["hemisphere"] or "").strip(" ,").lower()
     said = (match["word"] or letter).strip().lower()
-    axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w")) else "lat")
+    axis = said and ("lon" if said.startswith(("lo", "ln", "e", "w", "o")) else "lat")
     degrees, minutes = match["degrees"] or match["whole"], match["minutes"] or match["packed"] or 0
     seconds = match["seconds"] or match["sixtieths"] or 0
     parts = (str(part).replace(",", ".") for part in (degrees, minutes, seconds))

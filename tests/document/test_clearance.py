@@ -610,3 +610,28 @@ def test_ways_to_and_from_steps_within_a_stand_off_come_no_nearer_than_these() -
     plan = document([survey, transit(0, 0)], constraints=[divers])
     assert nearest(plan, [50, 25]) >= math.dist((80, 30), (50, 25)) - 0.1
     assert "limit-broken" in kinds(plan)
+
+
+def test_ways_lead_round_closed_areas() -> None:
+    closed = "The vehicle stays outside [60, -20], [100, -20], [100, 30], [60, 30]."
+    plan = document([transit(120, 0), transit(0, 0)], constraints=[closed])
+    assert waypoints(plan) == [[59, -21], [101, -21], [120, 0], [101, -21], [59, -21], [0, 0]]
+    assert "limit-broken" not in kinds(plan)
+    # What lies inside can only be warned of.
+    inside = document([transit(80, 0)], constraints=[closed])
+    assert waypoints(inside) == [[80, 0]]
+    assert "limit-broken" in kinds(inside)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("Note the wreck's mast is sticking out of the water right at 80,-40.", ["mast"]),
+        ("Crew boat is moored at x 105, y 80.", ["boat"]),
+        ("Hold station at west cardinal buoy 90,-35.", ["buoy"]),
+        ("The red buoy is at 40,20.", ["The red buoy"]),
+        ("The boat is to wait, then 40,20.", []),
+    ],
+)
+def test_things_are_told_of_at_their_position(text: str, named: list[str]) -> None:
+    assert [words for words, _place in named_places(text, USV)] == named

@@ -18,7 +18,7 @@ NEAR = 24  # characters in which words that rule something out stand before it
 ARTICLE = 3  # words before a noun among which its article is
 NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
-IT = re.compile(r"\s+(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
+IT = re.compile(r"\s+(?:all )?(?:it|that|this|them|those|these)\W*", re.IGNORECASE)
 BEGUN = re.compile(r"[.!?;]\s+(?:(?:no|oh|er|um|wait|sorry|actually)\W*)*$", re.IGNORECASE)
 SENTENCE = re.compile(r"(?<!\.)[.!?;]\s")  # no dots of hesitation
 # The share of unknown words of another language (benchmarks/language_check.py).

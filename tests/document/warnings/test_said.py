@@ -239,6 +239,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle it at 9 m, then home.", [orbit(360), to(0, 0)], (), "value-lost"),
         ("Drift at 5,5. No drift after all.", [to(5, 5), drift()], (), "contradiction"),
         ("Drift at 5,5, hang on, skip that, just go.", [to(5, 5), drift()], (), "contradiction"),
+        ("Drift at 5,5, ah, belay all that.", [to(5, 5), drift()], (), "contradiction"),
         ("Drift at 5,5. There is a rope: leave it.", [to(5, 5), drift()], (), None),
         ("Drift at 5,5.", [to(5, 5), drift()], ("No drift is made.",), "contradiction"),
         ("Drift at 5,5.", [to(5, 5), drift()], ("The drift must be slow.",), None),
