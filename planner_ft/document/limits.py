@@ -5,6 +5,7 @@ They are the canonical sentences among the plan's constraints (planner_ft.vocabu
 
 import copy
 import dataclasses
+import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -18,6 +19,7 @@ from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.limits import Limit, Limits, load_limits
 
 UNITS = {"distance": "m", "speed": "m/s", "duration": "s"}
+MARK = re.compile(r" (?:[a-z]?\d+[a-z]?|[a-z])$")  # the letter or number of a thing
 MOVING = ("go", "arc", "drift")  # motions in which a filter has something to do
 
 
@@ -42,7 +44,9 @@ def _placed(limit: Limit, document: Entry, vocabulary: Vocabulary) -> Limit:
     for words, place in named_places(frame_of(document).spoken, vocabulary, thing):
         named.append((words, [place.x, place.y]))
     name = f" {thing}"
-    places = [at for words, at in named if f" {_bare(words)}".endswith(name)]
+    bare = [(f" {_bare(words)}", at) for words, at in named]
+    # "Turbine A1" is the turbine.
+    places = [at for words, at in bare if name in (words[-len(name) :], MARK.sub("", words))]
     if not places or any(at != places[0] for at in places):
         return limit
     return dataclasses.replace(limit, values={**limit.values, "position": places[0]})

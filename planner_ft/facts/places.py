@@ -23,7 +23,7 @@ _WRITTEN_PAIR = re.compile(
     re.IGNORECASE,
 )
 """Two numbers that are certainly coordinates, and no other values."""
-PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?\s?[,/]\s?[-−–]?\d+(?:\.\d+)?")
+PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+)?")
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(

@@ -100,7 +100,7 @@ def test_the_words_of_a_limit_reach_from_its_first_value_to_its_last() -> None:
     ("text", "words"),
     [
         ("The vehicle stays inside [0, 0], [80, 0], [80, 80], [0, 80].", "goes to [100, 50]"),
-        ("The vehicle stays outside [40, 0], [60, 0], [60, 80], [40, 80].", "enters it"),
+        ("The vehicle stays outside [80, 0], [110, 0], [110, 80], [80, 80].", "enters it"),
         ("The vehicle stays at least 30 m from the wreck at [120, 50].", "within 20 m"),
         ("The vehicle stays within 100 m of home.", "112 m away"),
         ("The mission takes at most 60 s.", "takes about"),
@@ -117,6 +117,7 @@ def test_what_the_track_breaks_is_told(text: str, words: str) -> None:
         FENCE,
         PLATFORM,
         "The vehicle stays outside [40, 80], [60, 80], [60, 90], [40, 90].",
+        "The vehicle stays outside [40, 0], [60, 0], [60, 80], [40, 80].",
         "The vehicle stays within 120 m of home.",
         "The mission takes at most 600 s.",
         "The vehicle goes no faster than 2 m/s.",

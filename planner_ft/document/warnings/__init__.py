@@ -51,7 +51,7 @@ def answers(case: Case) -> Iterator[Warning]:
 
 CHECKS: tuple[Check, ...] = (
     answers,
-    *(route.broken_limits, route.close_structures, route.open_places, route.order),
+    *(route.broken_limits, route.close_structures, route.beside, route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.against_itself, asked.conditions),

@@ -44,7 +44,8 @@ WRECK = "The vehicle stays at least {} m from the wreck at [50, 0]."
         (OUTSIDE, [(20.4, 0)], None),
         (OUTSIDE, [(20.6, 0)], "enters it on the way to [20.6, 0]"),
         (OUTSIDE, [(0, 30), (60, 9)], None),
-        (OUTSIDE, [(0, 9), (60, 9)], "enters it on the way to [60, 9]"),
+        (OUTSIDE, [(0, 9), (60, 9)], None),  # led round it
+        (OUTSIDE, [(0, 9), (30, 9), (60, 9)], "enters it on the way to [30, 9]"),
         (HOME, [(100.4, 0)], None),
         (HOME, [(0, -100.6)], "goes 101 m away from home"),
         (HOME, [(99, 0), (120, 0), (130, 0)], "goes 130 m away from home"),
@@ -60,8 +61,11 @@ def test_a_limit_of_space_is_kept_to_half_a_metre(
 
 def test_an_area_without_an_inside_is_a_line_that_is_not_crossed() -> None:
     line = "The vehicle stays outside [50, -20], [50, -20], [50, 20]."
-    assert broken(line, go((100, 0)))
+    assert broken(line, go((50, 0)))
     assert not broken(line, go((40, 0)))
+    around = document([go((100, 0))], constraints=[line])
+    assert len(around["tasks"][0]["skill_sequence"]) == 3
+    assert not told(around, "limit-broken")
 
 
 def test_legs_over_a_place_that_no_task_and_no_limit_has_are_told() -> None:
@@ -75,6 +79,30 @@ def test_legs_over_a_place_that_no_task_and_no_limit_has_are_told() -> None:
     assert "[60, 30], which the command names and neither a task nor a limit has" in found
     assert not passes(rock, (0, 60), (120, 60), constraint=prose)
     assert not passes("Go to [120, 60].", (120, 60))
+
+
+@pytest.mark.parametrize(("radius", "count"), [(1, 1), (1.9, 1), (2, 0), (25, 0)])
+def test_a_distance_is_hardly_meant_below_a_fifth_of_the_stand_off(
+    radius: float, count: int
+) -> None:
+    turn = step("ArcTurn", {"radius": radius, "delta_yaw": 360})
+    orbit = task("PerformOrbit", {"center": [60, 60], "radius": radius, "arc": 360}, [turn])
+    found = told(
+        document([orbit], command=f"Circle the mast at 60,60 at {radius} m."), "structure-close"
+    )
+    assert [f"stay {radius:g} m off" in one for one in found] == [True] * count
+
+
+def test_a_limit_finds_its_thing_by_the_name_without_its_number() -> None:
+    turn = step("ArcTurn", {"radius": 25, "delta_yaw": 360})
+    orbit = task("PerformOrbit", {"center": [99, 9], "radius": 25, "arc": 360}, [turn])
+    plan = document(
+        [orbit],
+        command="Orbit turbine A1 at (99, 9), radius 25. Never closer than 40 m to that turbine.",
+        constraints=["The vehicle stays at least 40 m from the turbine."],
+    )
+    (found,) = told(plan, "limit-broken")
+    assert "comes within 25 m" in found
 
 
 @pytest.mark.parametrize(
