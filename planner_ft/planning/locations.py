@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.facts.geographic import read_geographic
+from planner_ft.facts.places import read_positions
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.support.geodesy import Origin
@@ -101,7 +102,23 @@ def resolve(plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary) 
             entry = filled["tasks"][number - 1]
             parameter = vocabulary.task[entry["title"]].position_parameter
             entry["parameters"][parameter] = canonical_value(at)
+        _tell_passes(filled["tasks"], place.name, canonical_value(at), vocabulary)
     return filled
+
+
+def _tell_passes(
+    tasks: list[dict[str, Any]], name: str, at: list[float], vocabulary: Vocabulary
+) -> None:
+    """Write a place that is known now into the prompts of passes along it, which have no other
+    place for it: "along the east side of the breakwater at [60, 40]".
+    """
+    for task in tasks:
+        prompt, known = task["task_prompt"], vocabulary.task[task["title"]]
+        start = prompt.casefold().find(name.casefold())
+        told = any(place.certain for place in read_positions(prompt))
+        if known.pattern == "pass" and start >= 0 and not told:
+            end = start + len(name)
+            task["task_prompt"] = f"{prompt[:end]} at [{at[0]:g}, {at[1]:g}]{prompt[end:]}"
 
 
 def fitting(

@@ -143,3 +143,24 @@ def test_a_location_for_a_plan_without_open_places_is_an_error() -> None:
             {"buoy": (1.0, 2.0)},
             USV,
         )
+
+
+@pytest.mark.parametrize(
+    ("prompt", "told"),
+    [
+        ("Run along the east side of the Mole, 8 m off.", "of the Mole at [60, 40.5], 8 m off."),
+        ("Run along the mole at [9, 9].", "Run along the mole at [9, 9]."),
+        ("Run along the quay.", "Run along the quay."),
+    ],
+)
+def test_a_pass_is_told_where_its_thing_is(prompt: str, told: str) -> None:
+    values = {"side_id": "east", "length": 200, "distance": 8}
+    open_plan = plan(
+        ("SearchAndDetect", {"target_description": "mole"}, "Find the mole."),
+        ("Transit", {"target_position": OPEN}, "Go to the mole."),
+        ("ParallelStructurePass", values, prompt),
+    )
+    filled = resolve(open_plan, {"mole": (60, 40.5)}, USV)
+    assert filled["tasks"][2]["task_prompt"].endswith(told)
+    assert filled["tasks"][1]["task_prompt"] == "Go to the mole."
+    assert open_plan["tasks"][2]["task_prompt"] == prompt

@@ -51,12 +51,12 @@ def answers(case: Case) -> Iterator[Warning]:
 
 CHECKS: tuple[Check, ...] = (
     answers,
-    *(route.broken_limits, route.close_structures, route.beside, route.open_places, route.order),
+    *(route.broken_limits, route.close_structures, places.beside, route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
-    route.performed,
+    *(route.performed, places.passed_elsewhere),
     *(places.unmoved, places.round_home, said.intervals, said.endless),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
     *(

@@ -8,17 +8,19 @@ from typing import Any
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import OVER, ROUND, bars, structures, way_off
-from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.track import Point, circle_of, place_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, spot, warning
-from planner_ft.facts import Position, near
+from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.geographic import lone_coordinates, read_geographic
-from planner_ft.facts.places import rows_of
+from planner_ft.facts.places import read_positions, rows_of
 from planner_ft.planning.locations import ARTICLE
+from planner_ft.planning.shapes import PASS, face_of, goal_of
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
+LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
 
@@ -58,6 +60,35 @@ def passed(case: Case) -> Iterator[Warning]:
             where, task = shown(at), case.by_id[name]
             known: dict[str, Any] = {"about": where, "place": where, "metres": metres}
             yield warning("structure-close", "passed", task, **known)
+
+
+def beside(case: Case) -> Iterator[Warning]:
+    """Tasks that go round a structure, or along it, nearer than any vehicle of the kind may."""
+    least = case.vehicle.get("stand_off", STAND_OFF) * LEAST
+    for task in case.tasks:
+        circle, face = circle_of(task, case.vocabulary), face_of(task, case.vocabulary)
+        metres = circle[1] if circle else face.distance if face else least
+        if 0 < metres < least:
+            yield warning("structure-close", "beside", task, metres=metres)
+
+
+def passed_elsewhere(case: Case) -> Iterator[Warning]:
+    """Passes that lie elsewhere than the place that the plan has gone to before them, where their
+    prompt says no place: nothing else told the Task Agent where it is.
+    """
+    last, off = case.vocabulary.home, case.vehicle.get("stand_off", STAND_OFF)
+    for task in case.tasks:
+        last = place_of(task, case.vocabulary) or last
+        known, metres = case.vocabulary.task[task["title"]], task["parameters"].get(PASS[1])
+        goals = [goal_of(step, case.vocabulary) for step in task.get("skill_sequence") or ()]
+        points = [(goal[0], goal[1]) for goal in goals if goal]
+        said = any(place.certain for place in read_positions(task["task_prompt"]))
+        if known.pattern != "pass" or said or not is_number(metres) or len(points) < 2:
+            continue
+        away = min(way_off(last, *pair) for pair in itertools.pairwise(points))
+        if last not in (case.vocabulary.home, case.vocabulary.unresolved) and away > metres + off:
+            problem = f"its waypoints pass {away:.0f} m from {shown(last)}"
+            yield warning("not-performed", "shape", task, problem=problem)
 
 
 def _is_told_of(place: Position, case: Case) -> bool:

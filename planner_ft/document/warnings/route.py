@@ -12,13 +12,12 @@ from typing import Any
 
 from planner_ft.document.language import Clause
 from planner_ft.document.structures import MOVING, Structure, close_legs, closed_area, way_off
-from planner_ft.document.track import Leg, Point, circle_of, place_of, shown, stated
-from planner_ft.document.vehicle import STAND_OFF
+from planner_ft.document.track import Leg, Point, place_of, shown, stated
 from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
 from planner_ft.facts.geographic import read_geographic
 from planner_ft.facts.places import read_positions
 from planner_ft.planning.limits import last_away, time_left, without_limits
-from planner_ft.planning.shapes import face_of, goal_of, shape_problem
+from planner_ft.planning.shapes import goal_of, shape_problem
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import is_number
@@ -34,7 +33,6 @@ KIND_OF: dict[Condition, tuple[str, str]] = {
 MUCH = 0.5  # the part of the endurance from which parts of unknown length matter
 MOST_LISTED = 6
 MEASURES = ("m", "s", "m/s", "count")  # units of what cannot be nothing; an angle and a share can
-LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 TURNS = ("turn-to", "turn-by")
 TOLERANCE = 0.5
 """Metres by which a leg may miss a limit, and beyond a boundary that are its line still."""
@@ -253,16 +251,6 @@ def close_structures(case: Case) -> Iterator[Warning]:
             values: dict[str, Any] = {"metres": metres, "name": where}
             values["standoff"] = structure.standoff
             yield warning("structure-close", task=case.by_id[name], about=at, **values)
-
-
-def beside(case: Case) -> Iterator[Warning]:
-    """Tasks that go round a structure, or along it, nearer than any vehicle of the kind may."""
-    least = case.vehicle.get("stand_off", STAND_OFF) * LEAST
-    for task in case.tasks:
-        circle, face = circle_of(task, case.vocabulary), face_of(task, case.vocabulary)
-        metres = circle[1] if circle else face.distance if face else least
-        if 0 < metres < least:
-            yield warning("structure-close", "beside", task, metres=metres)
 
 
 # ---------------------------------------------------------------- boundaries, area, reach

@@ -93,6 +93,18 @@ def test_a_distance_is_hardly_meant_below_a_fifth_of_the_stand_off(
     assert [f"stay {radius:g} m off" in one for one in found] == [True] * count
 
 
+@pytest.mark.parametrize(
+    ("x", "prompt", "count"),
+    [(118, "Pass the mole.", 1), (68, "Pass the mole.", 0), (118, "Pass the pier at [110, 9].", 0)],
+)
+def test_a_pass_lies_where_the_plan_has_gone(x: float, prompt: str, count: int) -> None:
+    steps = [step("GoToXY", {"x": x, "y": y}) for y in (-60, 140)]
+    values = {"side_id": "east", "length": 200, "distance": 8}
+    plan = document([go((60, 40)), task("ParallelStructurePass", values, steps, prompt)])
+    away = [one for one in told(plan, "not-performed") if "its waypoints pass 58 m from" in one]
+    assert len(away) == count
+
+
 def test_a_limit_finds_its_thing_by_the_name_without_its_number() -> None:
     turn = step("ArcTurn", {"radius": 25, "delta_yaw": 360})
     orbit = task("PerformOrbit", {"center": [99, 9], "radius": 25, "arc": 360}, [turn])
