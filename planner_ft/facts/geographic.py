@@ -1,7 +1,8 @@
-"""Geographic positions of a text, a kind of their own. They are told from local positions ("40 east,
-25 north", in metres) by a degree sign with minutes or a hemisphere, the words latitude and
-longitude, hemisphere letters at two numbers with decimals (at one: two decimals), or four decimals
-and more, and stand in pairs unless they have minutes.
+"""Geographic positions of a text, a kind of their own.
+
+They are told from local positions ("40 east, 25 north", in metres) by a degree sign with minutes or
+a hemisphere, the words latitude and longitude, hemisphere letters at two numbers with decimals (at
+one: two decimals), or four decimals and more, and stand in pairs unless they have minutes.
 """
 
 import functools

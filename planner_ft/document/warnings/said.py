@@ -146,13 +146,9 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         if match := _counts(case.vocabulary).match(case.text, number.end):
             counted[match[1].casefold()] = number
     last_counted = list(counted.values())
-    sizes = [(row, case.plan.missing_sizes(row)) for row in rows_of_sizes(case.text)]
     # "Thirty by thirty, no, thirty by fifty": the last of a length counts.
-    apart = {
-        one.start
-        for _row, lacked in {len(row): (row, lacked) for row, lacked in sizes}.values()
-        for one in lacked
-    }
+    lacked = {len(row): case.plan.missing_sizes(row) for row in rows_of_sizes(case.text)}
+    apart = {one.start for sizes in lacked.values() for one in sizes}
     for number in plain:
         clause = case.clause_at(number.start)
         inside = any(place.start <= number.start < place.end for place in case.positions)
