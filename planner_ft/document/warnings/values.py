@@ -126,7 +126,8 @@ def unmentioned(case: Case) -> Iterator[Warning]:
 
 def declined(case: Case) -> Iterator[Warning]:
     """Constraints by which the plan leaves out what no word of the command asks for."""
-    spoken = words(case.command)
+    small = [case.words["boundary"], case.words["determiner"]]
+    spoken = [one for one in words(case.command) if not any(of.fullmatch(one) for of in small)]
     for line in case.document.get("constraints", ()):
         no = case.words["declined"].search(line)
         left = [one for one in words(line[no.end() :]) if LONGER.fullmatch(one)] if no else []

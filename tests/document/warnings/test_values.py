@@ -177,6 +177,7 @@ def test_a_place_that_follows_is_named_where_a_place_is_only_told_of() -> None:
         ("Go to [30, 40]. I want the boat back soon.", "", "thing-not-mentioned", 0),
         ("Go to [30, 40]. Circle the mast.", "", "thing-not-mentioned", 0),
         ("Go to [30, 40].", "The vehicle has no task for shopping.", "value-not-said", 1),
+        ("Go for [30, 40].", "The vehicle has no task for forecasting.", "value-not-said", 1),
         ("Shop, go to [30, 40].", "The vehicle has no task for shopping.", "value-not-said", 0),
         ("Jam it, go to [30, 40].", "The vehicle has no task for jamming.", "value-not-said", 0),
     ],
