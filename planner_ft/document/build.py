@@ -29,7 +29,7 @@ from planner_ft.document.track import estimate, track
 from planner_ft.document.vehicle import Vehicle, load_vehicle
 from planner_ft.document.warnings import warnings
 from planner_ft.planning.essentials import asked, kept_additions, kept_defaults, question
-from planner_ft.planning.locations import OpenPlace, open_places
+from planner_ft.planning.locations import OpenPlace, open_places, place_in
 from planner_ft.planning.result import Answer, Planned, PlannedTask
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
@@ -55,10 +55,9 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
     places: dict[str, Any] = {}
     for place in open_places(plan, vocabulary):
         for task in (tasks[number - 1] for number in place.tasks):
-            parameter = vocabulary.task[task["title"]].position_parameter or ""
-            position = task["parameters"][parameter]
-            if position != list(vocabulary.unresolved):
-                task["located"] = {parameter: place.name}
+            where, position = place_in(task, vocabulary)
+            if position is not None:
+                task["located"] = {where: place.name}
                 places[place.name] = position
     charted = {name: list(position) for name, position in planned.chart.items()}
     proposal = {
@@ -186,10 +185,10 @@ def places_of(tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary) -> list[O
 def tasks_at(
     name: str, tasks: Sequence[dict[str, Any]], vocabulary: Vocabulary
 ) -> list[tuple[dict[str, Any], str]]:
-    """The tasks at a place, open or located, each with the parameter of its position."""
+    """The tasks at a place, open or located, each with what `place_in` says holds its position."""
     places = [place for place in places_of(tasks, vocabulary) if place.name == name]
     waiting = [tasks[number - 1] for place in places for number in place.tasks]
-    found = [(task, vocabulary.task[task["title"]].position_parameter or "") for task in waiting]
+    found = [(task, place_in(task, vocabulary)[0]) for task in waiting]
     return found + [
         (task, parameter)
         for task in tasks

@@ -13,6 +13,7 @@ from planner_ft.document import entered
 from planner_ft.document.build import PlanDocument, made_safe, places_of, tasks_at
 from planner_ft.document.limits import without_filters
 from planner_ft.planning.frame import frame_of
+from planner_ft.planning.locations import IN_PROMPT, settle
 from planner_ft.planning.result import renamed
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import parse_origin
@@ -79,9 +80,9 @@ def locate(draft: Draft, name: str, position: list[Any]) -> None:
         waiting = [place.name for place in places_of(draft.tasks, draft.vocabulary)]
         known = ", ".join((*waiting, *document["located"])) or "none"
         raise PlannerError(f"{entered.short(name)}: no such place is open; there is {known}")
-    for task, parameter in found:
-        task["parameters"][parameter] = position
-        task["located"] = {**task.get("located", {}), parameter: name}
+    for task, where in found:
+        settle(task, name, position, draft.vocabulary)
+        task["located"] = {**task.get("located", {}), where: name}
         draft.changed(task)
     document["located"][name] = position
 
@@ -191,6 +192,8 @@ def title(draft: Draft, task: Entry, title: str) -> None:
 
 def prompt(draft: Draft, task: Entry, text: str) -> None:
     task["task_prompt"] = entered.prompt_text(text)
+    if IN_PROMPT in task.get("located", {}):
+        del task["located"]
     draft.changed(task)
 
 

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from planner_ft.planning.locations import is_open
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.definition import Motion
 
@@ -146,7 +145,7 @@ class Pen:
         """Add the legs of a task, or note that it is open."""
         self.begin(task)
         known, place = self.vocabulary.task.get(task["title"]), place_of(task, self.vocabulary)
-        if is_open(task, self.vocabulary):
+        if "waits_for" in task:
             self._leave_open()
             self.here = None
         elif task.get("skill_sequence") is not None:

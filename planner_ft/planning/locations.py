@@ -5,6 +5,7 @@ by the target of the search that is to find it, a berth by words of the task pro
 """
 
 import copy
+import json
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -28,6 +29,8 @@ PLACE_WORDS = re.compile(
     r"(?i)\b(?:at|to|alongside|into|for|on|in)\s+(?P<place>[^[\d].*?)"
     r"(?=\s+(?:once|before|after|and|then|with|by)\b|[.,;:]|$)"
 )
+IN_PROMPT = "task_prompt"
+"""What holds the place of a pass; other tasks have it in a parameter."""
 ARTICLE = re.compile(r"^(?:the|an?|our|your|that|this)\s+", re.IGNORECASE)
 
 
@@ -49,6 +52,8 @@ def open_places(plan: Mapping[str, Any], vocabulary: Vocabulary) -> list[OpenPla
             searched.append(target(vocabulary.task[title], entry["parameters"]) or title)
         elif is_open(entry, vocabulary):
             needed.setdefault(_name_of(entry, searched, vocabulary), []).append(number)
+        elif name := _passed(entry, searched, vocabulary):
+            needed.setdefault(name, []).append(number)
     return [OpenPlace(name, tuple(numbers)) for name, numbers in needed.items()]
 
 
@@ -99,26 +104,43 @@ def resolve(plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary) 
             problem = f'"{place.name}" is located by "{other}" already; leave one of them out'
             raise PlannerError(f"--locate {name}: {problem}")
         for number in place.tasks:
-            entry = filled["tasks"][number - 1]
-            parameter = vocabulary.task[entry["title"]].position_parameter
-            entry["parameters"][parameter] = canonical_value(at)
-        _tell_passes(filled["tasks"], place.name, canonical_value(at), vocabulary)
+            settle(filled["tasks"][number - 1], place.name, at, vocabulary)
     return filled
 
 
-def _tell_passes(
-    tasks: list[dict[str, Any]], name: str, at: list[float], vocabulary: Vocabulary
+def place_in(entry: Mapping[str, Any], vocabulary: Vocabulary) -> tuple[str, list[float] | None]:
+    """What holds the place of a task, a parameter or the task prompt, and the place, if known."""
+    known = vocabulary.task[entry["title"]]
+    if parameter := known.position_parameter:
+        place = entry["parameters"].get(parameter)
+        return parameter, None if place == list(vocabulary.unresolved) else place
+    told = [place for place in read_positions(entry["task_prompt"]) if place.certain]
+    return IN_PROMPT, canonical_value([told[0].x, told[0].y]) if told else None
+
+
+def settle(
+    entry: dict[str, Any], name: str, position: Sequence[float], vocabulary: Vocabulary
 ) -> None:
-    """Write a place that is known now into the prompts of passes along it, which have no other
-    place for it: "along the east side of the breakwater at [60, 40]".
+    """Put a task at its open place, or at another one than before, in place. A pass has it in the
+    prompt alone: "along the east side of the breakwater at [60, 40]".
     """
-    for task in tasks:
-        prompt, known = task["task_prompt"], vocabulary.task[task["title"]]
-        start = prompt.casefold().find(name.casefold())
-        told = any(place.certain for place in read_positions(prompt))
-        if known.pattern == "pass" and start >= 0 and not told:
-            end = start + len(name)
-            task["task_prompt"] = f"{prompt[:end]} at [{at[0]:g}, {at[1]:g}]{prompt[end:]}"
+    at, (where, before) = canonical_value(list(position)), place_in(entry, vocabulary)
+    prompt: str = entry["task_prompt"]
+    if where != IN_PROMPT:
+        entry["parameters"][where] = at
+    elif before is not None:
+        entry[IN_PROMPT] = prompt.replace(json.dumps(canonical_value(before)), json.dumps(at))
+    else:
+        end = prompt.casefold().find(name.casefold()) + len(name)
+        entry[IN_PROMPT] = f"{prompt[:end]} at {json.dumps(at)}{prompt[end:]}"
+
+
+def _passed(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:
+    """The searched target that a pass runs along, where its prompt has no place for it."""
+    known, prompt = vocabulary.task.get(entry["title"]), entry["task_prompt"].casefold()
+    if known is None or known.pattern != "pass" or place_in(entry, vocabulary)[1]:
+        return ""
+    return max((name for name in searched if name.casefold() in prompt), key=len, default="")
 
 
 def fitting(

@@ -133,7 +133,7 @@ class Planner:
         if "task" not in self.agents.agents:
             problem = "there is no Task Agent with --mission-only; leave the flag out"
             raise PlannerError(f"{task['title']}: {problem}")
-        if is_open(task, self.vocabulary):
+        if task.get("waits_for") or is_open(task, self.vocabulary):
             problem = "its place is open, and skills to nowhere would be worth nothing"
             raise PlannerError(f"{task['title']}: {problem}; say where it is first")
         if names := asked(task, self.vocabulary):

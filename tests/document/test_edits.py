@@ -79,6 +79,30 @@ def test_a_located_place_is_filled_in_wherever_the_plan_waits_for_it(plan: PlanD
     SCHEMA.validate(moved)
 
 
+def test_a_pass_along_an_open_place_waits_for_it_and_has_it_in_its_prompt() -> None:
+    face = {"side_id": "east", "length": 40, "distance": 8}
+    waiting = document(
+        [
+            task("SearchAndDetect", {"target_description": "mole"}, [step("StationKeep")], "Find."),
+            task("ParallelStructurePass", face, None, "Run along the east side of the Mole."),
+        ],
+        command="Find the mole and run along its east side for 40 m, 8 m off.",
+    )
+    assert by_id(waiting, "t2")["waits_for"] == "mole" and not waiting["complete"]
+    placed = apply(waiting, {"kind": "locate", "name": "mole", "position": [60, 40.5]}, USV)
+    run = by_id(placed, "t2")
+    assert run["task_prompt"] == "Run along the east side of the Mole at [60, 40.5]."
+    assert "waits_for" not in run and placed["located"] == {"mole": [60, 40.5]}
+    SCHEMA.validate(placed)
+    moved = apply(placed, {"kind": "locate", "name": "mole", "position": [5, 6]}, USV)
+    assert by_id(moved, "t2")["task_prompt"] == "Run along the east side of the Mole at [5, 6]."
+    reworded = {"kind": "prompt", "task": "t2", "text": "Run along the mole."}
+    again = apply(moved, reworded, USV)
+    assert again["located"] == {} and by_id(again, "t2")["waits_for"] == "mole"
+    there = {**reworded, "text": "Run along the mole at [7, 7]."}
+    assert "waits_for" not in by_id(apply(waiting, there, USV), "t2")
+
+
 def test_an_edited_parameter_takes_its_prompt_along_and_outdates_the_skills(
     plan: PlanDocument,
 ) -> None:

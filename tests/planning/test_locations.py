@@ -160,6 +160,8 @@ def test_a_pass_is_told_where_its_thing_is(prompt: str, told: str) -> None:
         ("Transit", {"target_position": OPEN}, "Go to the mole."),
         ("ParallelStructurePass", values, prompt),
     )
+    waiting = (2, 3) if told != prompt else (2,)
+    assert open_places(open_plan, USV) == [OpenPlace("mole", waiting)]
     filled = resolve(open_plan, {"mole": (60, 40.5)}, USV)
     assert filled["tasks"][2]["task_prompt"].endswith(told)
     assert filled["tasks"][1]["task_prompt"] == "Go to the mole."

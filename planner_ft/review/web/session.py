@@ -13,7 +13,7 @@ from planner_ft.document.edits import KINDS, Edit
 from planner_ft.document.vehicle import Vehicle
 from planner_ft.document.warnings.asked import other_language
 from planner_ft.planning.essentials import asked as needed
-from planner_ft.planning.locations import Position, is_open
+from planner_ft.planning.locations import Position
 from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown, check_command
 from planner_ft.planning.settings import PlanSettings
 from planner_ft.review.approval import check_name
@@ -218,7 +218,7 @@ class Session:
         """Ask the Task Agent again for a task, as an edit. Raises BusyError, ChangedError."""
         desk = self._desk(revision)
         asked = _task(desk.document, task)
-        if is_open(asked, self.vocabulary):
+        if "waits_for" in asked:
             raise PlannerError(f"task {task}: its place is not known yet; say where it is first")
         if names := needed(asked, self.vocabulary):
             raise PlannerError(f"task {task}: {' and '.join(names)} must be known first; add it")
