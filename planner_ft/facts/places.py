@@ -27,13 +27,16 @@ PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(
-    rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?![a-z])|{_METRES}|(?:(?:to )?the |due )?"
+    rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
+    rf"|(?:(?:to )?the |due )?"
     rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
     re.IGNORECASE,
 )
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
-_Y_FIRST = re.compile(r"(?<![a-z])y\s*[=:]?\s*$", re.IGNORECASE)
+_ROW = re.compile(r"[\s,]*(?:and|or)?\s*")
+_X_FIRST = re.compile(r"(?<![a-z])x\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
+_Y_FIRST = re.compile(r"(?<![a-z])y\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
 _CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")  # a time of day: "16:00"
 _COORDINATE_UNIT = re.compile(
     r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in "
@@ -44,7 +47,9 @@ _COORDINATE_UNIT = re.compile(
 _OPENED = re.compile(r"[\[(]\s*$")
 _AT = re.compile(r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}$", re.IGNORECASE)
 _AXES = re.compile(
-    r"(?<![a-z])y\s?[=:]?\s?(?:[-−–]|minus )?\d|\d\s?(?:east|west|north|south)\b.*\d", re.IGNORECASE
+    r"(?<![a-z])y\s?(?:[=:]|equals|is)?\s?(?:[-−–]|minus )?\d"
+    r"|\d\s?(?:east|west|north|south)\b.*\d",
+    re.IGNORECASE,
 )
 _AXIS = r"(?:eastings?|northings?|east|north|west|south|latitude|longitude|coordinates?|[xy])"
 _AXIS_BEFORE = re.compile(rf"(?<![a-z]){_AXIS}(?:(?![.;]\s)\W){{0,3}}(?:of |is )?$", re.IGNORECASE)
@@ -148,7 +153,8 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
             way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
             rank = max(first.rank, second.rank)
             led = None if way else _led(text, first, second)
-            for x, y in [led] if led else _readings(text, first, second):
+            start = led.start if led else start
+            for x, y in [(led.x, led.y)] if led else _readings(text, first, second):
                 certain = bool(plain or opened or led)
                 place = Position(x, y, start, way.end() if way else end, certain)
                 found[place] = min(rank, found.get(place, REREAD))
@@ -177,19 +183,24 @@ def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float,
 
 
 def _are_plain(text: str, first: Number, second: Number) -> bool:
-    """Whether numbers without units have a comma, or behind a digit a blank, between them."""
+    """Whether numbers without units have a comma, a semicolon, " / ", or behind a digit a blank
+    between them.
+    """
     between, measured = text[first.end : second.start], first.unit or second.unit
     blank = between.isspace() and text[first.end - 1].isdigit()
-    return (blank or between.strip() == ",") and not (measured or first.counts or second.counts)
+    parted = between.strip() in (",", ";") or between == " / "
+    return (blank or parted) and not (measured or first.counts or second.counts)
 
 
-def _led(text: str, first: Number, second: Number) -> tuple[float, float] | None:
+def _led(text: str, first: Number, second: Number) -> Position | None:
     """The position of two numbers that both stand behind their direction: "E1200 N0"."""
     behind = (max(0, first.start - 24), first.start), (first.stop, second.start)
     ways = [_LED.search(text, *span) for span in behind]
     numbers = zip((first, second), ways, strict=True)
     by_axis = {axis: value for value, axis in (_along(*pair) for pair in numbers)}
-    return (by_axis["x"], by_axis["y"]) if {"x", "y"} <= by_axis.keys() else None
+    if ways[0] is None or not {"x", "y"} <= by_axis.keys():
+        return None
+    return Position(by_axis["x"], by_axis["y"], ways[0].start(1), second.end)
 
 
 def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None]:
@@ -197,6 +208,27 @@ def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None
     letter = way[1][0].lower() if way else "?"
     axis = None if way is None else "x" if letter in "ew" else "y"
     return -number.said if letter in "ws" else number.said, axis
+
+
+def with_brackets(text: str) -> str:
+    """The text with its certain positions in the form of plans: "easting 72, northing 36" and
+    "x=72 y=36" as "[72, 36]". Those with directions behind them stay: "12 m south of the buoy".
+    """
+    numbers, parts, done = read_numbers(text), list[str](), 0
+    for place in sorted(positions_of(text, numbers), key=lambda one: one.start):
+        start, end = place.start, place.end
+        axis = _X_FIRST.search(text, max(0, start - 24), start)
+        led = re.match(_DIRECTION, text[start:end], re.IGNORECASE)
+        if start < done or not place.certain or _OPENED.search(text[:start][-16:]):
+            continue
+        if not led and (_BEARING.search(text, start, end) or _Y_FIRST.search(text[:start][-24:])):
+            continue
+        after = [one for one in numbers if one.start >= end and not (one.unit or one.counts)]
+        if not (led or axis) and after and _ROW.fullmatch(text, end, after[0].start):
+            continue  # "cages at 1, 2 and 3"
+        parts += [text[done : axis.start() if axis else start], f"[{place.x:g}, {place.y:g}]"]
+        done = end
+    return "".join([*parts, text[done:]])
 
 
 @functools.lru_cache(maxsize=4096)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.task.working import working_of
+from planner_ft.facts.places import with_brackets
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, read_text, write_json
 from planner_ft.vocabulary import Vocabulary
@@ -30,7 +31,7 @@ Record = dict[str, Any]
 """A sample: its prompt, the task and parameters of a task, the `expected` plan."""
 PLAIN_FORM = "{system}\n\n### Input\n{user}\n\n### Plan\n"
 """The prompt of a model without a chat template."""
-PROMPT_VERSION = 2
+PROMPT_VERSION = 3
 """Counts up with every change of the rendered text: predictions are not reused across it."""
 PROBE = "\x02probe\x03"
 TODAY = "26 Jul 2024"
@@ -49,9 +50,11 @@ def system_text(level: Level, vocabulary: Vocabulary, *, with_vocabulary: bool) 
 
 
 def user_text(level: Level, record: Record, vocabulary: Vocabulary) -> str:
-    """The agent's input: the command, or a task's title, parameters and prompt on three lines."""
+    """The agent's input: the command with its positions in the form of plans ("x=4, y=9" as
+    "[4, 9]"), or a task's title, parameters and prompt on three lines.
+    """
     if level == "mission":
-        return str(record["prompt"])
+        return with_brackets(str(record["prompt"]))
     task = vocabulary.task.get(record["task"])
     parameters = canonical_parameters(record.get("parameters", {}), task)
     return f"{record['task']}\n{compact_json(parameters)}\n{record['prompt']}"

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.facts import WAYPOINT, read
 from planner_ft.facts.geographic import lone_coordinates
-from planner_ft.facts.places import read_positions, rows_of, written_positions
+from planner_ft.facts.places import read_positions, rows_of, with_brackets, written_positions
 
 
 def stated(text: str, position: list[float]) -> bool:
@@ -168,13 +168,13 @@ POSITIONS = """
     40 metres to the east, 12 to the north of home => 40,12 <40 metres to the east, 12 to the north>
     40 west, 12 south => -40,-12 <40 west, 12 south>!
     40 south 12 east => -40,12 <40 south 12 east>!; 12,-40 <40 south 12 east>!
-    south 40, east 12 => 12,-40 <40, east 12>!
-    east 40 north 12 => 40,12 <40 north 12>!
-    north 40 east 12 => 12,40 <40 east 12>!
-    easting 40 northing 12 => 40,12 <40 northing 12>!
+    south 40, east 12 => 12,-40 <south 40, east 12>!
+    east 40 north 12 => 40,12 <east 40 north 12>!
+    north 40 east 12 => 12,40 <north 40 east 12>!
+    easting 40 northing 12 => 40,12 <easting 40 northing 12>!
     40E 12N => 40,12 <40E 12>
-    W40 S12 => -40,-12 <40 S12>!
-    E1200 N0 => 1200,0 <1200 N0>!
+    W40 S12 => -40,-12 <W40 S12>!
+    E1200 N0 => 1200,0 <E1200 N0>!
     at minus twenty, minus five => -20,-5 <minus twenty, minus five>!
     at twenty, thirty metres => 20,30 <twenty, thirty metres>
     40, 40 due east => 40,40 <40, 40>
@@ -199,6 +199,10 @@ POSITIONS = """
     all in km [1, 2] => 1,2 <1, 2>!; 1000,2000 <1, 2>!
     in km wading [1, 2] => 1,2 <1, 2>!
     y 40 and x 30 => 40,30 <40 and x 30>; 30,40 <40 and x 30>
+    x equals 110 and y equals minus 45 => 110,-45 <110 and y equals minus 45>!
+    at 96 / 28 => 96,28 <96 / 28>!
+    at 24;56 => 24,56 <24;56>!
+    at 1/2 =>
 """
 
 
@@ -381,3 +385,25 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
         assert stated(text, place), place
     for place in ([7000, 8000], [5000, 6000]):
         assert not stated(text, place), place
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("mow E12 N48, 100 m", "mow [12, 48], 100 m"),
+        ("be at easting 72, northing 36 by ten", "be at [72, 36] by ten"),
+        ("x=-4, y=9 then (3, 4)", "[-4, 9] then (3, 4)"),
+        ("go to x equals minus 4 and y equals 9", "go to [-4, 9]"),
+        ("to forty, minus twelve and wait", "to [40, -12] and wait"),
+        ("start at 96 / 28, ten metres", "start at [96, 28], ten metres"),
+        # No position for certain, directions behind it, rows and what is in brackets stay.
+        ("from 22, 98 westwards", "from 22, 98 westwards"),
+        ("12 east and 9 south of the buoy", "12 east and 9 south of the buoy"),
+        ("cages at 1, 2 and 3", "cages at 1, 2 and 3"),
+        ("y=9 x=4", "y=9 x=4"),
+        ("at [4, 9]", "at [4, 9]"),
+        ("a grid of 40 by 60", "a grid of 40 by 60"),
+    ],
+)
+def test_certain_positions_are_told_in_brackets(text: str, told: str) -> None:
+    assert with_brackets(text) == told

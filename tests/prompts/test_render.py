@@ -61,6 +61,12 @@ def tokenizer(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathF
     return tokenizer
 
 
+def test_a_command_has_its_positions_in_the_form_of_plans_and_a_task_prompt_as_it_stands() -> None:
+    record = {"prompt": "Orbit E12 N48.", "task": "PerformOrbit", "parameters": {}}
+    assert user_text("mission", record, VOCABULARY) == "Orbit [12, 48]."
+    assert user_text("task", record, VOCABULARY).endswith("Orbit E12 N48.")
+
+
 def test_prompt_and_answer_join_without_a_seam(tokenizer: Any) -> None:
     rendered = render_sample("mission", MISSION, tokenizer, VOCABULARY)
     prompt = render_prompt("mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False)

@@ -31,7 +31,7 @@ CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ag
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
 SIZES = re.compile(r"\d\s?[x×*]\s?$")  # stands before the second and third of "20 x 20 x 5"
-AXIS = re.compile(r"(?<![a-z])[xy]\s?[=:]?\s?$", re.IGNORECASE)
+AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
@@ -136,7 +136,7 @@ def _instead(case: Case) -> list[Number]:
 
 
 def bare_numbers(case: Case) -> Iterator[Warning]:
-    """Numbers without a unit that are values all the same: behind the name of a parameter
+    """Numbers without a unit that are values all the same: below 0, behind the name of a parameter
     ("radius 15"), in a row of sizes ("20x20x5"), in place of an earlier value, or at the end of a
     clause ("give it five", "at 35"); and the last one that counts a parameter ("12 sectors").
     """
@@ -169,6 +169,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if instead and number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)
+        bare = bare or number.value < 0
         if number.start in apart or ((bare or instead or behind) and not known):
             yield case.lost(number.start, number.end)
 

@@ -152,6 +152,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle the mast at 60,60. Double that to 20 m.", [orbit(360)], (), None),
         ("Go to 80,45. I meant minus 45.", [to(80, 45)], (), "value-lost"),
         ("Go to 80,45. I meant minus 45.", [to(80, -45)], (), None),
+        ("Go to 80,45, then the other one, minus 30.", [to(80, 45)], (), "value-lost"),
         (
             "Circle it at 15 m and come no nearer than thirty.",
             [orbit(360)],
