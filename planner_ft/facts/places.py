@@ -125,8 +125,17 @@ def written_positions(text: str) -> list[Position]:
 
 
 def written_pairs(text: str) -> list[tuple[int, int]]:
-    """The spans of what certainly are coordinates: "[40, 12]", "x=40 y=12"."""
-    return [match.span() for match in _WRITTEN_PAIR.finditer(text)]
+    """The spans of what certainly are coordinates: "[40, 12]", "x=40 y=12", "E40 N12"."""
+    led = [
+        (one.start, one.end) for one in read_positions(text) if one.certain and _is_led(text, one)
+    ]
+    return [*(match.span() for match in _WRITTEN_PAIR.finditer(text)), *led]
+
+
+def _is_led(text: str, place: Position) -> bool:
+    """Whether a position begins with its direction, or stands behind its axis: "x equals 40"."""
+    axis = _X_FIRST.search(text, max(0, place.start - 24), place.start)
+    return bool(axis or re.match(_DIRECTION, text[place.start : place.end], re.IGNORECASE))
 
 
 def read_positions(text: str) -> tuple[Position, ...]:
@@ -142,7 +151,7 @@ def read_positions(text: str) -> tuple[Position, ...]:
 @functools.lru_cache(maxsize=4096)
 def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]:
     """The positions that numbers of a text can be, the plainest first."""
-    found = dict[Position, int]()
+    found, taken = dict[Position, int](), list[Position]()
     for first, second in pairs((one for one in numbers if one.stop), MOST_BETWEEN):
         start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)
@@ -154,12 +163,15 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
             rank = max(first.rank, second.rank)
             led = None if way else _led(text, first, second)
             start = led.start if led else start
+            taken += [led] if led else []
             for x, y in [(led.x, led.y)] if led else _readings(text, first, second):
                 certain = bool(plain or opened or led)
                 place = Position(x, y, start, way.end() if way else end, certain)
                 found[place] = min(rank, found.get(place, REREAD))
+    # No number of "E12 N48, 100 m" is one of another position.
+    known = [one for one in found if one in taken or not any(_share(one, led) for led in taken)]
+    found = {one: found[one] for one in known}
     # A sentence may say the unit of its positions: "fence corners, in kilometres: ...".
-    known = list(found)
     for match in _COORDINATE_UNIT.finditer(text):
         factor = UNITS[match[1].lower()][1]
         begin, stop = text.rfind(". ", 0, match.start()) + 1, text.find(". ", match.end())
@@ -168,6 +180,10 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
                 x, y = round(place.x * factor, 2), round(place.y * factor, 2)
                 found[place] = found[replace(place, x=x, y=y)] = found[place]
     return tuple(sorted(found, key=lambda place: found[place] >= REREAD))
+
+
+def _share(one: Position, other: Position) -> bool:
+    return one.start < other.end and other.start < one.end
 
 
 def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float, float]]:
@@ -200,7 +216,7 @@ def _led(text: str, first: Number, second: Number) -> Position | None:
     by_axis = {axis: value for value, axis in (_along(*pair) for pair in numbers)}
     if ways[0] is None or not {"x", "y"} <= by_axis.keys():
         return None
-    return Position(by_axis["x"], by_axis["y"], ways[0].start(1), second.end)
+    return Position(by_axis["x"], by_axis["y"], ways[0].start(1), second.end, True)
 
 
 def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None]:

@@ -174,6 +174,7 @@ POSITIONS = """
     easting 40 northing 12 => 40,12 <easting 40 northing 12>!
     40E 12N => 40,12 <40E 12>
     W40 S12 => -40,-12 <W40 S12>!
+    E12 N48, 100 m => 12,48 <E12 N48>!
     E1200 N0 => 1200,0 <E1200 N0>!
     at minus twenty, minus five => -20,-5 <minus twenty, minus five>!
     at twenty, thirty metres => 20,30 <twenty, thirty metres>

@@ -33,7 +33,7 @@ def answers(case: Case) -> Iterator[Warning]:
     if document.get("problems"):
         yield warning("invalid-answer", "mission", problem=document["problems"][0])
     elif not case.tasks:
-        reason = next(iter(document.get("constraints", ())), "no reason is given")
+        reason = next(iter(document.get("constraints", ())), "no reason")
         yield warning("empty-plan", reason=reason.rstrip("."))
     if origin and (reason := doubt(case.command, origin)):
         yield warning("doubtful-origin", words=reason)

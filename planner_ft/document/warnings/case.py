@@ -258,14 +258,15 @@ class PlanValues:
 
     def repeats(self, count: float, places: Sequence[Position], row: Sequence[Position]) -> bool:
         """Whether something is done so often: an arc, each place, else any place or task, and all
-        of a row of which the plan goes to one again.
+        of a row of which the plan goes to one again. A round begins where it began, so the first of
+        a row is not gone to less often than the last.
         """
         if any(near(abs(value), FULL * count) for value in self.numbers):
             return True
         points = [item for item in self.often if is_number(item[0])]
-        visits = [sum(same_place(at, one) for one in points) for at in (*places, *row)]
-        if not places and max(visits, default=0) > 1:
-            return min(visits) >= count
+        visits = [sum(same_place(at, one) for one in points) for at in row or places]
+        if row and (places or max(visits) > 1):
+            return min(visits) == count and visits[0] >= visits[-1]
         if places:
             return min(visits) >= count
         return any(self.often.count(item) >= count for item in set(self.often))

@@ -125,6 +125,9 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4), to(4, 0), to(0, 4)], (), "repeat-lost"),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4)] * 2, (), None),
+        (LOOP, [*[to(4, 0), to(4, 4), to(0, 4)] * 2, to(4, 0)], (), None),
+        (LOOP, [to(4, 0), to(4, 4), to(0, 4)] * 3, (), "repeat-lost"),
+        (LOOP, [to(4, 0), *[to(4, 4), to(0, 4)] * 2, to(4, 0), to(0, 4)], (), "repeat-lost"),
         (
             "Hold at 1,9, 2,9 and 3,9 for a minute, twice.",
             [*at(1), *at(2), *at(3)],
