@@ -34,7 +34,7 @@ _BETWEEN = re.compile(
 )
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
-_ROW = re.compile(r"[\s,]*(?:and|or)?\s*")
+_PARTED = re.compile(r"[-−–]?[\d.]+(?:\s?;\s?| / )[-−–]?[\d.]+")
 _X_FIRST = re.compile(r"(?<![a-z])x\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
 _Y_FIRST = re.compile(r"(?<![a-z])y\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
 _CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")  # a time of day: "16:00"
@@ -45,7 +45,9 @@ _COORDINATE_UNIT = re.compile(
 )
 """The unit of the coordinates in a sentence, which are metres elsewhere."""
 _OPENED = re.compile(r"[\[(]\s*$")
-_AT = re.compile(r"\b(?:at|to|near|around|from|on|cent(?:re|er)|@)\W{0,3}$", re.IGNORECASE)
+_AT = re.compile(
+    r"\b(?:at|to|near|around|from|on|cent(?:re|er)|position|coordinates|@)\W{0,3}$", re.IGNORECASE
+)
 _AXES = re.compile(
     r"(?<![a-z])y\s?(?:[=:]|equals|is)?\s?(?:[-−–]|minus )?\d"
     r"|\d\s?(?:east|west|north|south)\b.*\d",
@@ -227,23 +229,18 @@ def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None
 
 
 def with_brackets(text: str) -> str:
-    """The text with its certain positions in the form of plans: "easting 72, northing 36" and
-    "x=72 y=36" as "[72, 36]". Those with directions behind them stay: "12 m south of the buoy".
+    """The text with its positions in the form of plans, where their notation leaves no doubt:
+    "easting 72, northing 36", "x=72 y=36" and "at 72 / 36" as "[72, 36]". A comma alone ("at 72,
+    36") and directions behind ("12 m south of the buoy") stay.
     """
-    numbers, parts, done = read_numbers(text), list[str](), 0
-    for place in sorted(positions_of(text, numbers), key=lambda one: one.start):
+    parts, done = list[str](), 0
+    for place in read_positions(text):
         start, end = place.start, place.end
         axis = _X_FIRST.search(text, max(0, start - 24), start)
-        led = re.match(_DIRECTION, text[start:end], re.IGNORECASE)
-        if start < done or not place.certain or _OPENED.search(text[:start][-16:]):
-            continue
-        if not led and (_BEARING.search(text, start, end) or _Y_FIRST.search(text[:start][-24:])):
-            continue
-        after = [one for one in numbers if one.start >= end and not (one.unit or one.counts)]
-        if not (led or axis) and after and _ROW.fullmatch(text, end, after[0].start):
-            continue  # "cages at 1, 2 and 3"
-        parts += [text[done : axis.start() if axis else start], f"[{place.x:g}, {place.y:g}]"]
-        done = end
+        told = _is_led(text, place) or _PARTED.fullmatch(text, start, end)
+        if place.certain and told and start >= done and not _OPENED.search(text[:start][-16:]):
+            parts += [text[done : axis.start() if axis else start], f"[{place.x:g}, {place.y:g}]"]
+            done = end
     return "".join([*parts, text[done:]])
 
 
