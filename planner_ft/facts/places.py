@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from planner_ft.facts.geographic import without_geographic
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.together import BY, REREAD, WRITTEN, Number, pairs
 from planner_ft.facts.words import COMPASS, SHORT, UNITS
@@ -231,10 +232,10 @@ def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None
 def with_brackets(text: str) -> str:
     """The text with its positions in the form of plans, where their notation leaves no doubt:
     "easting 72, northing 36", "x=72 y=36" and "at 72 / 36" as "[72, 36]". A comma alone ("at 72,
-    36") and directions behind ("12 m south of the buoy") stay.
+    36"), directions behind ("12 m south of the buoy") and geographic positions stay.
     """
     parts, done = list[str](), 0
-    for place in read_positions(text):
+    for place in read_positions(without_geographic(text)):
         start, end = place.start, place.end
         axis = _X_FIRST.search(text, max(0, start - 24), start)
         told = _is_led(text, place) or _PARTED.fullmatch(text, start, end)

@@ -396,7 +396,8 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
         ("x=-4, y=9 then (3, 4)", "[-4, 9] then (3, 4)"),
         ("go to x equals minus 4 and y equals 9", "go to [-4, 9]"),
         ("start at 96 / 28, ten metres", "start at [96, 28], ten metres"),
-        # A comma alone, directions behind it and what is in brackets stay.
+        # A comma alone, directions behind it, degrees and what is in brackets stay.
+        ("First N50.1502 W5.0631, then E3 N4.", "First N50.1502 W5.0631, then [3, 4]."),
         ("Go to 4, 9, no, 5, 9.", "Go to 4, 9, no, 5, 9."),
         ("from 22, 98 westwards", "from 22, 98 westwards"),
         ("12 east and 9 south of the buoy", "12 east and 9 south of the buoy"),
