@@ -161,6 +161,7 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
         if between and not _CLOCK.fullmatch(text, start, second.stop):
             plain = _AT.search(text[:start][-16:]) and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
+            opened = opened or text[first.end : second.start] == ";"
             # "120 east 45 north", but not "40, 40 due east".
             way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
             rank = max(first.rank, second.rank)

@@ -395,6 +395,7 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
         ("be at easting 72, northing 36 by ten", "be at [72, 36] by ten"),
         ("x=-4, y=9 then (3, 4)", "[-4, 9] then (3, 4)"),
         ("go to x equals minus 4 and y equals 9", "go to [-4, 9]"),
+        ("Patrol 2;-3, 4;5 twice", "Patrol [2, -3], [4, 5] twice"),
         ("start at 96 / 28, ten metres", "start at [96, 28], ten metres"),
         # A comma alone, directions behind it, degrees and what is in brackets stay.
         ("First N50.1502 W5.0631, then E3 N4.", "First N50.1502 W5.0631, then [3, 4]."),
