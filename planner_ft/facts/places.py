@@ -161,7 +161,7 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
         if between and not _CLOCK.fullmatch(text, start, second.stop):
             plain = _AT.search(text[:start][-16:]) and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
-            opened = opened or text[first.end : second.start] == ";"
+            parted = text[first.end : second.start] == ";"
             # "120 east 45 north", but not "40, 40 due east".
             way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
             rank = max(first.rank, second.rank)
@@ -169,7 +169,7 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
             start = led.start if led else start
             taken += [led] if led else []
             for x, y in [(led.x, led.y)] if led else _readings(text, first, second):
-                certain = bool(plain or opened or led)
+                certain = bool(plain or opened or parted or led)
                 place = Position(x, y, start, way.end() if way else end, certain)
                 found[place] = min(rank, found.get(place, REREAD))
     # No number of "E12 N48, 100 m" is one of another position.
