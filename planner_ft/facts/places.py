@@ -241,7 +241,8 @@ def with_brackets(text: str) -> str:
         axis = _X_FIRST.search(text, max(0, start - 24), start)
         told = _is_led(text, place) or _PARTED.fullmatch(text, start, end)
         if place.certain and told and start >= done and not _OPENED.search(text[:start][-16:]):
-            parts += [text[done : axis.start() if axis else start], f"[{place.x:g}, {place.y:g}]"]
+            written = f"[{place.x:.12g}, {place.y:.12g}]"
+            parts += [text[done : axis.start() if axis else start], written]
             done = end
     return "".join([*parts, text[done:]])
 

@@ -396,6 +396,7 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
         ("x=-4, y=9 then (3, 4)", "[-4, 9] then (3, 4)"),
         ("go to x equals minus 4 and y equals 9", "go to [-4, 9]"),
         ("Patrol 2;-3, 4;5 twice", "Patrol [2, -3], [4, 5] twice"),
+        ("easting 571240.5, northing 6020310", "[571240.5, 6020310]"),
         ("start at 96 / 28, ten metres", "start at [96, 28], ten metres"),
         # A comma alone, directions behind it, degrees and what is in brackets stay.
         ("First N50.1502 W5.0631, then E3 N4.", "First N50.1502 W5.0631, then [3, 4]."),
