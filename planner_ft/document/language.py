@@ -19,6 +19,7 @@ CLAUSE_END = re.compile(
     r" that|and|but)\b",
     re.IGNORECASE,
 )
+LAST = re.compile(r"\s*(?:[.!?;]|$)")
 NO = re.compile(r"^no\W+", re.IGNORECASE)
 
 
@@ -163,8 +164,10 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
         if text.strip():
             exclusion = None if words["reminder"].search(text) else words["exclusion"].search(text)
             excluded = start + exclusion.start() if exclusion else None
-            behind = command[end : end + 24].lstrip(" ,.;:!?-")
+            behind = command[end : end + 48].lstrip(" ,.;:!?-")
             corrected = any(map(words["correction"].match, (behind, NO.sub("", behind))))
+            last = words["afterthought"].match(behind)
+            corrected &= not (last and LAST.match(behind, last.end()))
             told = words["told"].search(text)
             behind_it = exclusion and words["correction"].search(text, exclusion.end())
             resumed = start + behind_it.end() if behind_it and not told else None

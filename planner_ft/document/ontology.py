@@ -135,6 +135,11 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
     for row in rows_of(text, written):
         words = _words_before(text, row[0].start, things)
         several |= {place.start: words for place in row[1:] if words.endswith("s")}
+    for match in spoken.words["one_of_them"].finditer(text):
+        sentence = text.rfind(". ", 0, match.start()) + 1
+        before = [one for one in bare if sentence <= one[0] and one[1] <= match.start()]
+        words = text[slice(*before[-1])] if before else ""
+        several |= {match.end() + 1: words} if words.endswith("s") else {}
     for place in read_positions(text):
         words = _words_beside(text, place, things) if place.certain else ""
         if not place.certain and place in written:

@@ -244,7 +244,7 @@ def bearing(start: Point, goal: Point) -> float:
 
 def shown(point: Sequence[float]) -> str:
     """A position in words: [250, -80]."""
-    return f"[{point[0]:g}, {point[1]:g}]"
+    return f"[{point[0]:.10g}, {point[1]:.10g}]"
 
 
 def _offset(base: Point, direction: float, length: float) -> Point:

@@ -36,6 +36,9 @@ _BETWEEN = re.compile(
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
 _PARTED = re.compile(r"[-−–]?[\d.]+(?:\s?;\s?| / )[-−–]?[\d.]+")
+_THIRD = re.compile(r",?\s(?:and|or)\s")
+_TIGHT = re.compile(r"[-−–]?\d{2,}(?:\.\d+)?/[-−–]?\d{2,}(?:\.\d+)?")
+"""In "pen 3, 55/70" the number of the pen is no coordinate."""
 _X_FIRST = re.compile(r"(?<![a-z])x\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
 _Y_FIRST = re.compile(r"(?<![a-z])y\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
 _CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")  # a time of day: "16:00"
@@ -121,18 +124,26 @@ def written_positions(text: str) -> list[Position]:
         if one.certain or (PAIR.fullmatch(text, one.start, one.end) and one.end not in measures)
     ]
     chosen = list[Position]()
-    for place in sorted(options, key=lambda one: (not one.certain, one.end - one.start)):
+    blanks = {one: text[one.start : one.end].count(" ") for one in options}
+    for place in sorted(
+        options, key=lambda one: (not one.certain, one.end - one.start, blanks[one])
+    ):
         if all(place.end <= one.start or one.end <= place.start for one in chosen):
             chosen.append(place)
     return sorted(chosen, key=lambda place: place.start)
 
 
 def written_pairs(text: str) -> list[tuple[int, int]]:
-    """The spans of what certainly are coordinates: "[40, 12]", "x=40 y=12", "E40 N12"."""
-    led = [
-        (one.start, one.end) for one in read_positions(text) if one.certain and _is_led(text, one)
-    ]
-    return [*(match.span() for match in _WRITTEN_PAIR.finditer(text)), *led]
+    """The spans of what certainly are coordinates: "[40, 12]", "x=40 y=12", "E40 N12", "at 40,
+    12"; not the first of "at 12, 18 and 25 metres".
+    """
+    measured, known = {one.start for one in read_numbers(text) if one.unit}, list[tuple[int, int]]()
+    for one in written_positions(text):
+        third = _THIRD.match(text, one.end)
+        plain = PAIR.fullmatch(text, one.start, one.end)
+        plain = plain if not third or third.end() not in measured else None
+        known += [(one.start, one.end)] if one.certain and (plain or _is_led(text, one)) else []
+    return [*(match.span() for match in _WRITTEN_PAIR.finditer(text)), *known]
 
 
 def _is_led(text: str, place: Position) -> bool:
@@ -172,6 +183,7 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
                 certain = bool(plain or opened or parted or led)
                 place = Position(x, y, start, way.end() if way else end, certain)
                 found[place] = min(rank, found.get(place, REREAD))
+                taken += [place] if _TIGHT.fullmatch(text, start, end) else []
     # No number of "E12 N48, 100 m" is one of another position.
     known = [one for one in found if one in taken or not any(_share(one, led) for led in taken)]
     found = {one: found[one] for one in known}

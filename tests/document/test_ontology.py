@@ -247,3 +247,9 @@ def test_every_list_of_an_ontology_is_one_of_texts(tmp_path: Path, text: str, sa
     with pytest.raises(PlannerError) as caught:
         language(load_vocabulary(tmp_path / "mine.toml"))
     assert said in str(caught.value)
+
+
+def test_one_and_the_other_are_what_is_named_before_them() -> None:
+    found = named_places("Two bridge piers, one at 9,4 the other at 9,-4. Go between.", USV)
+    assert [(words, place.y) for words, place in found] == [("piers", 4), ("piers", -4)]
+    assert not named_places("Two tasks, one at 9,4 the other at 9,-4.", USV)

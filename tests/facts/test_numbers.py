@@ -171,7 +171,7 @@ VALUES = """
     5 yards 6 | m | 4.572 5.4864 6
     5 foot 0 | m | 0 1.524
     ten minutes here and five there | s | 5 300 600
-    ten minutes at 25,85; sorry, make that five | s | 5 25 85 300 600
+    ten minutes at 25,85; sorry, make that five | s | 5 300 600
     ten minutes here and fifty there | s | 50 600
     ten minutes here and 51 there | s | 51 600
     ten minutes here and two there | s | 2 600

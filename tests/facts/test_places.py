@@ -193,7 +193,7 @@ POSITIONS = """
     [1, 2] and [3, 4] => 1,2 <1, 2>!; 3,4 <3, 4>!
     [1, 2] to [3, 4] or [5, 6] => 1,2 <1, 2>!; 3,4 <3, 4>!; 5,6 <5, 6>!
     10,20 30,40 => 10,20 <10,20>; 20,30 <20 30>; 30,40 <30,40>
-    10/20 and 30/40 => 10,20 <10/20>; 20,30 <20 and 30>; 30,40 <30/40>
+    10/20 and 30/40 => 10,20 <10/20>; 30,40 <30/40>
     corners in km: [1, 2]. Then [3, 4]. => 1,2 <1, 2>!; 3,4 <3, 4>!; 1000,2000 <1, 2>!
     Go. Corners, in feet: [10, 20]. At [5, 6]. => 10,20 <10, 20>!; 5,6 <5, 6>!; 3.05,6.1 <10, 20>!
     The positions are in yards. [1, 2] => 1,2 <1, 2>!
@@ -410,3 +410,14 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
 )
 def test_certain_positions_are_told_in_brackets(text: str, told: str) -> None:
     assert with_brackets(text) == told
+
+
+def test_the_number_of_a_thing_is_no_coordinate_of_what_stands_behind_it() -> None:
+    assert [(one.x, one.y) for one in read_positions("Net pen 3, 55/70.")] == [(55, 70)]
+    assert len(read_positions("Net pen 3, 5/7.")) == 2
+
+
+def test_coordinates_behind_at_or_to_are_no_other_numbers() -> None:
+    known = read("Go to 75, 150 for ten minutes.")
+    assert {one.value for one in known.numbers("s")} == {600}
+    assert {one.value for one in read("Survey at 12, 18 and 25 m.").numbers("m")} == {12, 18, 25}

@@ -6,7 +6,16 @@ A check is a function from a `Case` to the warnings that it finds.
 from collections.abc import Iterator
 
 from planner_ft.document.track import Track
-from planner_ft.document.warnings import asked, directions, picked, places, route, said, values
+from planner_ft.document.warnings import (
+    asked,
+    directions,
+    picked,
+    places,
+    repeats,
+    route,
+    said,
+    values,
+)
 from planner_ft.document.warnings.case import KINDS, NOTES, SERIOUS, Case, Check, Warning, warning
 from planner_ft.planning.frame import doubt, origin_of
 from planner_ft.vocabulary import Entry, Vocabulary
@@ -54,13 +63,20 @@ CHECKS: tuple[Check, ...] = (
     *(route.broken_limits, route.close_structures, places.beside, route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
-    *(asked.against_itself, asked.conditions),
+    *(places.taken_back, asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
     *(route.performed, places.passed_elsewhere),
-    *(places.unmoved, places.round_home, said.intervals, said.endless),
+    *(places.unmoved, places.round_home, repeats.intervals, repeats.endless),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
     *(said.crossed, said.clock_times, places.geographic, places.rows, places.uneven_rows),
-    *(places.unvisited, places.positions, places.passed, said.limits, said.repeats),
+    *(
+        places.unvisited,
+        places.positions,
+        places.passed,
+        said.limits,
+        repeats.repeats,
+        repeats.each,
+    ),
     *(said.devices, directions.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsought),

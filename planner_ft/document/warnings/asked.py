@@ -7,7 +7,7 @@ from typing import Any
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import place_of
 from planner_ft.document.warnings.case import Case, Warning, named, quoted, skills_of, warning
-from planner_ft.facts import unknown_words
+from planner_ft.facts import corrections, unknown_words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Entry, Vocabulary
@@ -23,6 +23,7 @@ BEGUN = re.compile(r"[.!?;]\s+(?:(?:no|oh|er|um|wait|sorry|actually)\W*)*$", re.
 SENTENCE = re.compile(r"(?<!\.)[.!?;]\s")  # no dots of hesitation
 # The share of unknown words of another language (benchmarks/language_check.py).
 UNKNOWN = 0.55
+FEWEST_UNKNOWN = 3  # words of a clause
 
 
 def other_language(command: str) -> str | None:
@@ -36,9 +37,18 @@ def other_language(command: str) -> str | None:
 
 
 def other_words(case: Case) -> Iterator[Warning]:
-    """A command that is hardly understood."""
+    """A command that is hardly understood, or a clause of it."""
     if text := other_language(case.command):
         yield warning("unknown-language", words=text)
+        return
+    for clause in case.typed:
+        unknown, share = unknown_words(clause.text)
+        # A name has a capital, and a slip is near a known word.
+        plain = [word for word in unknown if word in clause.text]
+        slips = all(map(corrections, plain))
+        if len(plain) >= FEWEST_UNKNOWN and share >= UNKNOWN and not slips:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("unknown-language", "clause", about=words.casefold(), words=words)
 
 
 # ---------------------------------------------------------------- words of the ontology
@@ -266,6 +276,8 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
     # What waits says what it will gather, and data to be sent are not gathered anew.
     waiting = [task["task_prompt"] for task in case.tasks if not task["skill_sequence"]]
     valued = " ".join(str(value) for task in case.tasks for value in task["parameters"].values())
+    # An approach by GPS says so itself.
+    waiting += [case.vocabulary.task[task["title"]].description for task in case.tasks]
     asked = [data for data in case.spoken.data if not data.ruled_out]
     for clause in (one for one in case.typed if not (one.corrected or _sends(one, case))):
         lost = [data for data in asked if not _gathered(data, gathering, waiting)]
@@ -275,10 +287,16 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
         if words:
             listed, about = ", ".join(f'"{one}"' for one in words), " ".join(words).casefold()
             yield warning("data-not-planned", "nowhere", about=about, words=listed)
-        elif case.words["throughout"].search(clause.text):
+        elif case.words["throughout"].search(clause.text) or _all_along(clause, case):
             yield from _with_gaps(asked, clause, own, case)
         elif case.words["everywhere"].search(clause.text):
             yield from _once(asked, clause, own, case.tasks)
+
+
+def _all_along(clause: Clause, case: Case) -> bool:
+    """Whether a clause ends with words for the whole way."""
+    last = len(clause.text.rstrip(" ,;."))
+    return any(match.end() == last for match in case.words["all_along"].finditer(clause.text))
 
 
 def _with_gaps(
@@ -321,7 +339,7 @@ def gathered_by(task: Entry, vocabulary: Vocabulary) -> set[str]:
     return {name for name in names if vocabulary.skill[name].role == "perception"}
 
 
-def _gathered(data: Data, gathering: set[str], waiting: list[str]) -> bool:
-    """Whether a skill gathers the data, or a task that has no skills yet speaks of it."""
+def _gathered(data: Data, gathering: set[str], texts: list[str]) -> bool:
+    """Whether a skill gathers the data, or a text of a task speaks of it."""
     found = data.skills & gathering if data.skills else gathering
-    return bool(found) or any(data.said.search(prompt) for prompt in waiting)
+    return bool(found) or any(data.said.search(text) for text in texts)

@@ -20,6 +20,7 @@ from planner_ft.planning.shapes import PASS, face_of, goal_of
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
+ALL = re.compile(r"\s+all (?:of )?(?:it|that|this)\b", re.IGNORECASE)
 LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
@@ -42,6 +43,24 @@ def positions(case: Case) -> Iterator[Warning]:
         words = case.text[start:end].strip()
         if words.casefold() not in case.plan.texts:
             yield lost(words)
+
+
+def taken_back(case: Case) -> Iterator[Warning]:
+    """The first task that goes to a place of which "belay all that" takes back all mentions."""
+    for clause in case.clauses:
+        off = case.words["exclusion"].search(clause.text)
+        if off and ALL.match(clause.text, off.end()):
+            said = [one for one in case.positions if one.start < clause.start]
+            again = [one for one in case.positions if one.start >= clause.start]
+            ways = ((task, place_of(task, case.vocabulary)) for task in case.tasks)
+            for task, at in ((task, at) for task, at in ways if at):
+                kept = any(same_place(one, at) for one in again)
+                if not kept and any(same_place(one, at) for one in said):
+                    words = quoted(clause.text.strip(" ,;."))
+                    yield warning(
+                        "contradiction", "ruled_out", task, about=words.casefold(), words=words
+                    )
+                    break
 
 
 def passed(case: Case) -> Iterator[Warning]:

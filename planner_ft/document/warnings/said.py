@@ -6,12 +6,10 @@ Facts of the text are compared with values of the plan; which words limit or rep
 
 import functools
 import itertools
-import math
 import re
 from collections.abc import Iterator
 
 from planner_ft.document.language import Clause
-from planner_ft.document.track import place_of
 from planner_ft.document.warnings.case import (
     LONGER,
     Case,
@@ -23,14 +21,16 @@ from planner_ft.document.warnings.case import (
 )
 from planner_ft.facts import Number, is_place, near
 from planner_ft.facts.numbers import read_times
-from planner_ft.facts.places import is_course, read_positions, rows_of, rows_of_sizes
-from planner_ft.facts.together import neighbours
+from planner_ft.facts.places import is_course, read_positions, rows_of_sizes
+from planner_ft.facts.together import REREAD, neighbours
 from planner_ft.vocabulary import Vocabulary
 
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
-SIZES = re.compile(r"\d\s?[x×*]\s?$")  # stands before the second and third of "20 x 20 x 5"
+SIZES = re.compile(
+    r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$"
+)  # stands before the second and third of "20 x 20 x 5"
 AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
@@ -38,13 +38,9 @@ LONGEST_NAME = 24  # characters in which the name of a parameter stands before i
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30  # characters between a value and its correction
-SENTENCE = re.compile(r"^|[.!?;]\s")
-WAITING = ("hold", "follow", "drift", "visual")
-"""Patterns of tasks that can go on for as long as nobody says otherwise."""
 AT = re.compile(r"\bat $", re.IGNORECASE)
 APART = 0.5  # metres beyond a line
 HOURS = 12  # the last one: "at six" is a time of day
-EVERY = re.compile(r"\b(?:every|each) $", re.IGNORECASE)
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
 
@@ -84,18 +80,6 @@ def measures(case: Case) -> Iterator[Warning]:
             yield case.lost(wholes[0].start, wholes[0].end)
         else:
             instead.remove(other)
-
-
-def intervals(case: Case) -> Iterator[Warning]:
-    """ "Every 100 m", where no value of a task or a skill is that, and no two waypoints behind each
-    other lie so far apart.
-    """
-    apart = [math.dist(*pair) for pair in itertools.pairwise(case.plan.gone)]
-    for number in (one for one in case.numbers if one.unit == "m" and case.wants(one.start)):
-        every = EVERY.search(case.text[: number.start])
-        known = [*case.plan.numbers, *apart]
-        if every and not any(near(number.value, other) for other in known):
-            yield case.lost(every.start(), number.end)
 
 
 def unclear(case: Case) -> Iterator[Warning]:
@@ -146,9 +130,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         if match := _counts(case.vocabulary).match(case.text, number.end):
             counted[match[1].casefold()] = number
     last_counted = list(counted.values())
-    # "Thirty by thirty, no, thirty by fifty": the last of a length counts.
-    lacked = {len(row): case.plan.missing_sizes(row) for row in rows_of_sizes(case.text)}
-    apart = {one.start for sizes in lacked.values() for one in sizes}
+    apart = {one.start for row in _sizes(case) for one in case.plan.missing_sizes(row)}
     for number in plain:
         clause = case.clause_at(number.start)
         inside = any(place.start <= number.start < place.end for place in case.positions)
@@ -167,11 +149,22 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
             behind = behind or _ends_with(case.words["measured"], before)
             behind = behind or (number.value > HOURS and AT.search(before) is not None)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
-        if instead and number.value < 0:
+        if number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)
-        bare = bare or number.value < 0
+        bare = bare or number.value < 0 or _is_distance(number, case)
         if number.start in apart or ((bare or instead or behind) and not known):
             yield case.lost(number.start, number.end)
+
+
+def _sizes(case: Case) -> Iterator[list[Number]]:
+    """The rows of sizes that no later one corrects: "thirty by thirty, no, thirty by fifty"."""
+    rows = rows_of_sizes(case.text)
+    for place, row in enumerate(rows):
+        later = (one for one in rows[place + 1 :] if len(one) == len(row))
+        between = (case.text[row[-1].end : one[0].start] for one in later)
+        changes = [NO, case.words["correction"], case.words["replaced"]]
+        if not any(words.search(text) for text in between for words in changes):
+            yield row
 
 
 def crossed(case: Case) -> Iterator[Warning]:
@@ -187,6 +180,17 @@ def crossed(case: Case) -> Iterator[Warning]:
             if beyond and min(beyond) < -APART and max(beyond) > APART:
                 words = case.text[number.start - len(axis[0]) : number.end]
                 yield warning("limit-lost", "crossed", about=words.casefold(), words=words)
+
+
+def _is_distance(number: Number, case: Case) -> bool:
+    """Whether a number that may count things is a length to keep, which the plan has not: "half a
+    cable off her".
+    """
+    lengths = case.source.facts.numbers("m")
+    read = [one for one in lengths if one.start == number.start and one.rank >= REREAD]
+    clause = case.clause_at(number.start)
+    off = clause and case.words["off_it"].search(case.text, number.end, clause.end)
+    return bool(read and off) and not any(case.plan.says(one.value) for one in read)
 
 
 def _shots(number: Number, case: Case) -> bool:
@@ -284,46 +288,3 @@ def _ends_with(words: re.Pattern[str], text: str) -> bool:
     """Whether a text ends with one of some words."""
     rest = text.rstrip(" :,")
     return any(match.end() == len(rest) for match in words.finditer(rest))
-
-
-def endless(case: Case) -> Iterator[Warning]:
-    """Words for going on without end, where the last thing that the plan does comes to an end."""
-    known, home = case.vocabulary.task, case.vocabulary.home
-    own = [one for one in case.tasks if place_of(one, case.vocabulary) != home]
-    for clause in case.clauses if own and known[own[-1]["title"]].pattern not in WAITING else ():
-        if any(clause.spans(case.words["endless"])) and not clause.corrected:
-            words = quoted(clause.text.strip(" ,;."))
-            yield warning("repeat-lost", "endless", about=words.casefold(), words=words)
-            break
-
-
-def repeats(case: Case) -> Iterator[Warning]:
-    """Counts of rounds or times that nothing in the plan is done so often."""
-    text, found = case.text, dict[int, tuple[float, int]]()
-    for number in case.numbers:
-        inside = any(place.start <= number.start < place.end for place in case.positions)
-        counts = number.unit is None and number.value >= 2 and number.value.is_integer()
-        if counts and not inside:
-            first = itertools.islice(WORD.finditer(text, number.end), 2)
-            counted = (case.words["repeats"].match(text, word.start()) for word in first)
-            if behind := next(filter(None, counted), None):
-                found[behind.end()] = number.value, number.start
-    for count, name in ((2.0, "twice"), (3.0, "thrice")):
-        spans = (match.span() for match in case.words[name].finditer(text))
-        found |= {end: (count, start) for start, end in spans}
-    for end, (count, start) in found.items():
-        clause = case.clause_at(start)
-        if clause and case.wants(start):
-            places = [one for one in case.positions if clause.start <= one.start < clause.end]
-            sentence = max(match.end() for match in SENTENCE.finditer(text, 0, start))
-            ahead = SENTENCE.search(text, end)
-            near_by = [
-                row
-                for row in rows_of(text, case.positions)
-                if len(row) > 1
-                and sentence <= row[0].start < (ahead.start() if ahead else len(text))
-                and (not places or set(row) & set(places))
-            ]
-            if not case.plan.repeats(count, places, near_by[-1] if near_by else ()):
-                words = text[start:end]
-                yield warning("repeat-lost", "count", about=words.casefold(), words=words)

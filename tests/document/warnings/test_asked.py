@@ -104,6 +104,8 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ),
         ("Go to [30, 40]. Come home, but do not come home.", [THERE, BACK], ["contradiction:home"]),
         ("Go to [30, 40]. No, do not come home.", [THERE], []),
+        ("Go to [30, 40], the stop nearest home.", [THERE], []),
+        ("Go to [30, 40], then home.", [THERE], ["missing-return"]),
         (
             "Look all round. No panorama after all.",
             [PANORAMA],

@@ -106,6 +106,24 @@ def test_a_command_in_unknown_words_is_told(command: str, *, warned: bool) -> No
     assert ("unknown-language" in kinds) is warned
 
 
+def test_a_clause_in_unknown_words_is_told() -> None:
+    for command, count in (
+        ("Proceed to [75, 9] and home, dort halten for zehn Minuten.", 1),
+        ("Proceed to [75, 9] and home, hodl teh postion for zhen minuets.", 0),
+        ("Proceed to [75, 9] and home by Kriegers Flak Nord.", 0),
+    ):
+        kinds = [item["kind"] for item in document([], command=command)["warnings"]]
+        assert kinds.count("unknown-language") == count, command
+
+
+def test_an_approach_by_gps_needs_no_log_of_positions() -> None:
+    dock = task("DockingApproach", {"goal_position": [6, -2]}, [step("GoToXY", {"x": 6, "y": -2})])
+    go = task("Transit", {"target_position": [6, -2]}, [step("GoToXY", {"x": 6, "y": -2})])
+    for planned, count in ((dock, 0), (go, 1)):
+        made = document([planned], command="Into the slip at [6, -2], on GPS, please.")
+        assert [one["kind"] for one in made["warnings"]].count("data-not-planned") == count
+
+
 def test_data_that_are_asked_for_everywhere_and_gathered_once_are_named() -> None:
     legs = []
     for x, skills in ((40, ["GetSeabedDepth"]), (80, [])):
@@ -171,13 +189,20 @@ def test_docking_drifting_and_searching_want_words_for_it() -> None:
 
 
 @pytest.mark.parametrize(("skills", "count"), [((), 1), (("SetStreamRecording",), 0)])
+@pytest.mark.parametrize(
+    "command",
+    [
+        "Video from start to finish: out to [40, 0], home.",
+        "Out to [40, 0], home, with video the whole way, without a gap.",
+    ],
+)
 def test_data_until_the_vehicle_is_back_are_gathered_on_every_way(
-    skills: tuple[str, ...], count: int
+    command: str, skills: tuple[str, ...], count: int
 ) -> None:
     ways = []
     for x, names in ((40, ("SetStreamRecording",)), (0, skills)):
         one: dict[str, Any] = step("GoToXY", {"x": x, "y": 0})
         one["perception_skills"] = [{"name": name, "parameters": {}} for name in names]
         ways.append(task("Transit", {"target_position": [x, 0]}, [one]))
-    made = document(ways, command="Video from start to finish: out to [40, 0], home.")
+    made = document(ways, command=command)
     assert [item["kind"] for item in made["warnings"]].count("data-not-planned") == count

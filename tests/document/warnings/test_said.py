@@ -51,6 +51,7 @@ def look(sectors: int) -> dict[str, Any]:
 REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
+BERTHS = "Sound berths 1 and 2 at 9,9 and 9,9. Each 40 m wide x 20 m long, lines at 10 m."
 RAMP = "Visit the pier at 9,9 and the ramp at 30,9. On second thoughts leave out the ramp."
 AREA = "Go to 100,50 but never leave the area 0,0 200,0 200,200 0,200, then come home."
 PLATFORM = "Go to [100, 0] and do not go closer than 70 m to the platform at 260,80."
@@ -156,6 +157,16 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go to 80,45. I meant minus 45.", [to(80, 45)], (), "value-lost"),
         ("Go to 80,45. I meant minus 45.", [to(80, -45)], (), None),
         ("Go to 80,45, then the other one, minus 30.", [to(80, 45)], (), "value-lost"),
+        ("Go to 55,70. Wait, minus seventy, I meant.", [to(55, 70)], (), "value-lost"),
+        ("Go to 9,9. Ah, belay all that, home.", [to(9, 9), to(0, 0)], (), "contradiction"),
+        ("Go to 9,9. Ah, belay all that, 9,9 later.", [to(9, 9), to(0, 0)], (), None),
+        ("Map 40 x 40, then 60 x 20 at 9,9.", [grid(40, 20), grid(60, 20)], (), "value-lost"),
+        ("Map 40 x 40, then 60 x 20 at 9,9.", [grid(40, 40), grid(60, 20)], (), None),
+        ("A tug is at 9,9, keep half a cable off her. Go to 5,5.", [to(5, 5)], (), "value-lost"),
+        ("Hold here for half a cable watch.", [hold(60)], (), None),
+        ("Go to 70,70 and never leave the berth at 0,0.", [to(70, 70)], (), "limit-lost"),
+        (BERTHS, [grid(40, 20)], (), "repeat-lost"),
+        (BERTHS, [grid(40, 20), grid(40, 20)], (), None),
         (
             "Circle it at 15 m and come no nearer than thirty.",
             [orbit(360)],

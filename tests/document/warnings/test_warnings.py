@@ -413,7 +413,7 @@ def test_a_number_that_the_command_says_as_a_coordinate_alone_is_named() -> None
     around = task(
         "PerformOrbit", {"center": [200, 140], "radius": 140}, [], prompt="Circle at 140 m."
     )
-    told = document([around], command="Circle the mussel lines at 200,140.")["warnings"]
+    told = document([around], command="Circle the mussel lines by 200,140.")["warnings"]
     assert "radius is 140 m, which the command says as a coordinate alone" in str(told)
     told = document([around], command="Circle the lines at 200,140 at 140 m.")["warnings"]
     assert "as a coordinate alone" not in str(told)

@@ -1,0 +1,96 @@
+"""Repeats that the command says and the plan has not: counts, intervals, the same for each."""
+
+import itertools
+import math
+import re
+from collections.abc import Iterator
+
+from planner_ft.document.track import place_of
+from planner_ft.document.warnings.case import Case, Warning, quoted, warning
+from planner_ft.facts import near
+from planner_ft.facts.places import rows_of
+
+SENTENCE = re.compile(r"^|[.!?;]\s")
+WAITING = ("hold", "follow", "drift", "visual")
+"""Patterns of tasks that can go on for as long as nobody says otherwise."""
+EVERY = re.compile(r"\b(?:every|each) $", re.IGNORECASE)
+WORD = re.compile(r"\S+")
+"""The first or second behind a count says what is repeated: "three full revolutions"."""
+
+
+def intervals(case: Case) -> Iterator[Warning]:
+    """ "Every 100 m", where no value of a task or a skill is that, and no two waypoints behind each
+    other lie so far apart.
+    """
+    apart = [math.dist(*pair) for pair in itertools.pairwise(case.plan.gone)]
+    for number in (one for one in case.numbers if one.unit == "m" and case.wants(one.start)):
+        every = EVERY.search(case.text[: number.start])
+        known = [*case.plan.numbers, *apart]
+        if every and not any(near(number.value, other) for other in known):
+            yield case.lost(every.start(), number.end)
+
+
+def each(case: Case) -> Iterator[Warning]:
+    """Measures that a clause gives for each of several, and one task of several alone has."""
+    for clause in case.clauses:
+        start = clause.spans(case.words["each"])
+        at = next((place for place, _end in start), None)
+        inside = [
+            one
+            for one in case.numbers
+            if at is not None and at < one.start < clause.end and one.unit in ("m", "s")
+        ]
+        # "One each 30 s" is an interval.
+        timed = any(one.unit == "s" and EVERY.search(case.text[: one.start]) for one in inside)
+        having = [
+            owner
+            for owner in case.plan.owners
+            if all(any(near(one.value, other) for other in owner) for one in inside)
+        ]
+        alone = inside and len(having) == 1 and len(case.positions) > 1
+        if alone and not timed and not clause.corrected:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("repeat-lost", "each", about=words.casefold(), words=words)
+
+
+def endless(case: Case) -> Iterator[Warning]:
+    """Words for going on without end, where the last thing that the plan does comes to an end."""
+    known, home = case.vocabulary.task, case.vocabulary.home
+    own = [one for one in case.tasks if place_of(one, case.vocabulary) != home]
+    for clause in case.clauses if own and known[own[-1]["title"]].pattern not in WAITING else ():
+        if any(clause.spans(case.words["endless"])) and not clause.corrected:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("repeat-lost", "endless", about=words.casefold(), words=words)
+            break
+
+
+def repeats(case: Case) -> Iterator[Warning]:
+    """Counts of rounds or times that nothing in the plan is done so often."""
+    text, found = case.text, dict[int, tuple[float, int]]()
+    for number in case.numbers:
+        inside = any(place.start <= number.start < place.end for place in case.positions)
+        counts = number.unit is None and number.value >= 2 and number.value.is_integer()
+        if counts and not inside:
+            first = itertools.islice(WORD.finditer(text, number.end), 2)
+            counted = (case.words["repeats"].match(text, word.start()) for word in first)
+            if behind := next(filter(None, counted), None):
+                found[behind.end()] = number.value, number.start
+    for count, name in ((2.0, "twice"), (3.0, "thrice")):
+        spans = (match.span() for match in case.words[name].finditer(text))
+        found |= {end: (count, start) for start, end in spans}
+    for end, (count, start) in found.items():
+        clause = case.clause_at(start)
+        if clause and case.wants(start):
+            places = [one for one in case.positions if clause.start <= one.start < clause.end]
+            sentence = max(match.end() for match in SENTENCE.finditer(text, 0, start))
+            ahead = SENTENCE.search(text, end)
+            near_by = [
+                row
+                for row in rows_of(text, case.positions)
+                if len(row) > 1
+                and sentence <= row[0].start < (ahead.start() if ahead else len(text))
+                and (not places or set(row) & set(places))
+            ]
+            if not case.plan.repeats(count, places, near_by[-1] if near_by else ()):
+                words = text[start:end]
+                yield warning("repeat-lost", "count", about=words.casefold(), words=words)
