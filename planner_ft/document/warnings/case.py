@@ -257,7 +257,7 @@ class PlanValues:
         )
 
     def repeats(self, count: float, places: Sequence[Position], row: Sequence[Position]) -> bool:
-        """Whether something is done so often: an arc, each place, else any place or task, and all
+        """Whether something is done just so often: an arc, each place, else any place or task, and all
         of a row of which the plan goes to one again. A round begins where it began, so the first of
         a row is not gone to less often than the last.
         """
@@ -268,8 +268,8 @@ class PlanValues:
         if row and (places or max(visits) > 1):
             return min(visits) == count and visits[0] >= visits[-1]
         if places:
-            return min(visits) >= count
-        return any(self.often.count(item) >= count for item in set(self.often))
+            return min(visits) == count
+        return any(self.often.count(item) == count for item in set(self.often))
 
 
 def spot(place: Sequence[float]) -> tuple[float, ...]:

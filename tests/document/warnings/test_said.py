@@ -125,6 +125,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
             "repeat-lost",
         ),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4), to(4, 0), to(0, 4)], (), "repeat-lost"),
+        ("Out to 9,9 and home, do that twice.", [to(9, 9), to(0, 0)] * 2, (), None),
+        ("Out to 9,9 and home, do that twice.", [to(9, 9), to(0, 0)] * 3, (), "repeat-lost"),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4)] * 2, (), None),
         (LOOP, [*[to(4, 0), to(4, 4), to(0, 4)] * 2, to(4, 0)], (), None),
         (LOOP, [to(4, 0), to(4, 4), to(0, 4)] * 3, (), "repeat-lost"),
