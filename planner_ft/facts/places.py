@@ -28,7 +28,7 @@ PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(
-    rf"(?:[\s,;:/=]|comma|and|by|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
+    rf"(?:[\s,;:/=]|comma|plus|and|by|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
     rf"|(?:(?:to )?the |due )?"
     rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
     re.IGNORECASE,
@@ -215,12 +215,13 @@ def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float,
 
 
 def _are_plain(text: str, first: Number, second: Number) -> bool:
-    """Whether numbers without units have a comma, a semicolon, " / ", or behind a digit a blank
-    between them.
+    """Whether numbers without units have a comma, a semicolon, " / ", "plus" or a blank between
+    them.
     """
     between, measured = text[first.end : second.start], first.unit or second.unit
-    blank = between.isspace() and text[first.end - 1].isdigit()
-    parted = between.strip() in (",", ";") or between == " / "
+    digits = text[first.end - 1].isdigit() == text[second.end - 1].isdigit()
+    blank = between.isspace() and digits and max(first.rank, second.rank) < REREAD
+    parted = between.strip().lower() in (",", ";", "comma", "plus") or between == " / "
     return (blank or parted) and not (measured or first.counts or second.counts)
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from planner_ft.facts.geographic import read_geographic
+from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
@@ -52,7 +52,7 @@ def open_places(plan: Mapping[str, Any], vocabulary: Vocabulary) -> list[OpenPla
             searched.append(target(vocabulary.task[title], entry["parameters"]) or title)
         elif is_open(entry, vocabulary):
             needed.setdefault(_name_of(entry, searched, vocabulary), []).append(number)
-        elif name := _passed(entry, searched, vocabulary):
+        elif name := _told_in_degrees(entry) or _passed(entry, searched, vocabulary):
             needed.setdefault(name, []).append(number)
     return [OpenPlace(name, tuple(numbers)) for name, numbers in needed.items()]
 
@@ -114,7 +114,8 @@ def place_in(entry: Mapping[str, Any], vocabulary: Vocabulary) -> tuple[str, lis
     if parameter := known.position_parameter:
         place = entry["parameters"].get(parameter)
         return parameter, None if place == list(vocabulary.unresolved) else place
-    told = [place for place in read_positions(entry["task_prompt"]) if place.certain]
+    text = without_geographic(entry["task_prompt"])
+    told = [place for place in read_positions(text) if place.certain]
     return IN_PROMPT, canonical_value([told[0].x, told[0].y]) if told else None
 
 
@@ -130,9 +131,17 @@ def settle(
         entry["parameters"][where] = at
     elif before is not None:
         entry[IN_PROMPT] = prompt.replace(json.dumps(canonical_value(before)), json.dumps(at))
+    elif read_geographic(name):
+        entry[IN_PROMPT] = prompt.replace(name, json.dumps(at))
     else:
         end = prompt.casefold().find(name.casefold()) + len(name)
         entry[IN_PROMPT] = f"{prompt[:end]} at {json.dumps(at)}{prompt[end:]}"
+
+
+def _told_in_degrees(entry: Mapping[str, Any]) -> str:
+    """The geographic position in a task prompt, which is no place without an origin."""
+    prompt: str = entry["task_prompt"]
+    return next((prompt[at.start : at.end].strip() for at in read_geographic(prompt)), "")
 
 
 def _passed(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocabulary) -> str:

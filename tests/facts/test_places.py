@@ -421,3 +421,17 @@ def test_coordinates_behind_at_or_to_are_no_other_numbers() -> None:
     known = read("Go to 75, 150 for ten minutes.")
     assert {one.value for one in known.numbers("s")} == {600}
     assert {one.value for one in read("Survey at 12, 18 and 25 m.").numbers("m")} == {12, 18, 25}
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("hold at fifty fifty", (50, 50)),
+        ("go to seventy twenty and film it", (70, 20)),
+        ("to seven five plus thirty", (75, 30)),
+        ("to one hundred twenty comma sixty", (120, 60)),
+    ],
+)
+def test_dictated_positions_behind_at_or_to_are_certain(text: str, place: tuple[int, int]) -> None:
+    assert [(one.x, one.y) for one in read_positions(text) if one.certain] == [place]
+    assert not any(one.certain for one in read_positions(f"{text[:4]} twenty five"))

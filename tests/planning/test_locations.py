@@ -166,3 +166,16 @@ def test_a_pass_is_told_where_its_thing_is(prompt: str, told: str) -> None:
     assert filled["tasks"][2]["task_prompt"].endswith(told)
     assert filled["tasks"][1]["task_prompt"] == "Go to the mole."
     assert open_plan["tasks"][2]["task_prompt"] == prompt
+
+
+def test_every_task_that_is_told_a_place_in_degrees_waits_for_it() -> None:
+    degrees = "50 06.35 N 005 02.90 W"
+    told = plan(
+        ("Transit", {"target_position": OPEN}, f"Go to {degrees}."),
+        ("KeepStation", {"duration": 60}, f"Hold at {degrees}."),
+        ("Diagnostics", {}, "Check the sensors."),
+    )
+    assert open_places(told, USV) == [OpenPlace(degrees, (1, 2))]
+    filled = resolve(told, {degrees: (40.0, 30.0)}, USV)
+    assert filled["tasks"][0]["parameters"] == {"target_position": [40, 30]}
+    assert filled["tasks"][1]["task_prompt"] == "Hold at [40, 30]."

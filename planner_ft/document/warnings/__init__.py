@@ -62,6 +62,7 @@ CHECKS: tuple[Check, ...] = (
     answers,
     *(route.broken_limits, route.close_structures, places.beside, route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
+    said.harm,
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(places.taken_back, asked.against_itself, asked.conditions),
     *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
@@ -84,5 +85,5 @@ CHECKS: tuple[Check, ...] = (
     *(values.unsaid_skills, places.done_again, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
-EMPTY: tuple[Check, ...] = (answers, asked.other_words, asked.not_planned, values.unread)
+EMPTY: tuple[Check, ...] = (answers, said.harm, asked.other_words, asked.not_planned, values.unread)
 """Those for a plan without tasks."""

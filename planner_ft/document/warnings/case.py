@@ -131,6 +131,11 @@ class Case:
         """Constraints and assumptions of the plan."""
         return [*self.document.get("constraints", ()), *self.document.get("assumptions", ())]
 
+    def is_coordinate(self, number: Number) -> bool:
+        """Whether a number of the text is half of what is a place of the plan."""
+        pairs = (one for one in read_positions(self.text) if one.start <= number.start < one.end)
+        return any(same_place(one, at) for one in pairs for at in self.plan.places)
+
     def clause_at(self, place: int) -> Clause | None:
         """The clause in which a place of the text is."""
         at = bisect.bisect(self.clauses, place, key=lambda one: one.start) - 1
@@ -302,7 +307,9 @@ def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:
     ground = command.ground
     for (x, y), base in itertools.product(set(map(tuple, places)), ground.places if ground else ()):
         away = x - base[0], y - base[1]
-        if ground and any(away) and (ground.is_way_off((x, y), base) or away in ground.places):
+        # The way from home to a stated place is that place.
+        told = ground and (ground.is_way_off((x, y), base) or (any(base) and away in ground.places))
+        if any(away) and told:
             yield from (*away, math.hypot(*away), bearing(base, (x, y)))
 
 

@@ -69,9 +69,10 @@ def repeats(case: Case) -> Iterator[Warning]:
     text, found = case.text, dict[int, tuple[float, int]]()
     for number in case.numbers:
         inside = any(place.start <= number.start < place.end for place in case.positions)
-        counts = number.unit is None and number.value >= 2 and number.value.is_integer()
-        if counts and not inside:
-            first = itertools.islice(WORD.finditer(text, number.end), 2)
+        counts = number.unit is None and abs(number.value) >= 2 and number.value.is_integer()
+        if counts and not (inside and text[number.end - 1].isdigit()):
+            # "Minus thirty four times" may be four times.
+            first = itertools.islice(WORD.finditer(text, number.end), 1 if inside else 2)
             counted = (case.words["repeats"].match(text, word.start()) for word in first)
             if behind := next(filter(None, counted), None):
                 found[behind.end()] = number.value, number.start

@@ -38,6 +38,7 @@ LONGEST_NAME = 24  # characters in which the name of a parameter stands before i
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30  # characters between a value and its correction
+OFF = re.compile(r" off (?:it|her|him|them|the|that|this)\b", re.IGNORECASE)
 AT = re.compile(r"\bat $", re.IGNORECASE)
 APART = 0.5  # metres beyond a line
 HOURS = 12  # the last one: "at six" is a time of day
@@ -61,13 +62,15 @@ def measures(case: Case) -> Iterator[Warning]:
     for number, following in itertools.zip_longest(case.numbers, case.numbers[1:]):
         if not _is_measure(text, number) or not case.wants(number.start):
             continue
+        if number.start not in apart and case.is_coordinate(number):
+            continue
         between = text[number.end : following.start] if following else ""
         replaced = case.words["correction"].search(between) or NO.fullmatch(between)
         if replaced and len(between) <= CORRECTED:
             continue
         wholes = [*joined(number.unit), number]
         wholes = [one for one in wholes if one.start <= number.start and number.end <= one.end]
-        if number.start not in apart and any(case.plan.says(one.value) for one in wholes):
+        if number.start not in apart and any(_is_in_plan(one, case) for one in wholes):
             continue
         if case.clause_at(number.start) in limiting:
             continue
@@ -80,6 +83,14 @@ def measures(case: Case) -> Iterator[Warning]:
             yield case.lost(wholes[0].start, wholes[0].end)
         else:
             instead.remove(other)
+
+
+def harm(case: Case) -> Iterator[Warning]:
+    """Words for what would hurt somebody, or for leaving out rules and warnings."""
+    for clause in case.typed:
+        if any(clause.spans(case.words["harm"])) and not clause.corrected:
+            words = quoted(clause.text.strip(" ,;."))
+            yield warning("harm-asked", about=words.casefold(), words=words)
 
 
 def unclear(case: Case) -> Iterator[Warning]:
@@ -104,6 +115,15 @@ def clock_times(case: Case) -> Iterator[Warning]:
         limit = clause is not None and case.words["limit"].search(clause.text)
         if case.wants(start) and not (covered or limit or words in case.plan.texts):
             yield lost(words)
+
+
+def _is_in_plan(number: Number, case: Case) -> bool:
+    """Whether the plan has a number; a length off something in a parameter or a limit, since
+    sentences keep nobody off.
+    """
+    off = OFF.match(case.text, number.end)
+    known = (*case.plan.numbers, *case.plan.limited)
+    return any(near(number.value, one) for one in known) if off else case.plan.says(number.value)
 
 
 def _instead(case: Case) -> list[Number]:
@@ -134,7 +154,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
     for number in plain:
         clause = case.clause_at(number.start)
         inside = any(place.start <= number.start < place.end for place in case.positions)
-        if inside:
+        if inside or (number.start not in apart and case.is_coordinate(number)):
             continue
         before = case.text[max(0, number.start - LONGEST_NAME) : number.start]
         limits_it = clause is not None and case.words["limit"].search(clause.text)

@@ -51,6 +51,7 @@ def look(sectors: int) -> dict[str, Any]:
 REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
+BACKS = [to(1, 1), to(9, -34)]
 BERTHS = "Sound berths 1 and 2 at 9,9 and 9,9. Each 40 m wide x 20 m long, lines at 10 m."
 RAMP = "Visit the pier at 9,9 and the ramp at 30,9. On second thoughts leave out the ramp."
 AREA = "Go to 100,50 but never leave the area 0,0 200,0 200,200 0,200, then come home."
@@ -167,6 +168,11 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("A tug is at 9,9, keep half a cable off her. Go to 5,5.", [to(5, 5)], (), "value-lost"),
         ("Hold here for half a cable watch.", [hold(60)], (), None),
         ("Go to 70,70 and never leave the berth at 0,0.", [to(70, 70)], (), "limit-lost"),
+        ("Go to 9,9. The pen at 50,-50 is 50 m across.", [to(50, -50)], (), "value-lost"),
+        ("Hold 20 m off it for a minute.", [hold(60)], ("Go on at 20 m.",), "value-lost"),
+        ("Between x 1 y 1 and x 9 y minus thirty four times.", BACKS, (), "repeat-lost"),
+        ("Go to x = 45,5 m and y = 80,25 m.", [to(45.5, 80.25)], (), None),
+        ("Do not leave the berth. Go to 70,20.", [to(70, 20)], (), "limit-lost"),
         (BERTHS, [grid(40, 20)], (), "repeat-lost"),
         (BERTHS, [grid(40, 20), grid(40, 20)], (), None),
         (
@@ -209,7 +215,12 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go round the mast at 60,60 until told to stop.", [orbit(360)], (), "repeat-lost"),
         ("Go round the mast at 60,60 without stopping.", [orbit(360)], (), "repeat-lost"),
         ("Hold at 9,9 until told to stop.", [to(9, 9), hold(60)], (), None),
-        ("Drift at 5,5, but do not leave your present place.", [to(5, 5)], (), "contradiction"),
+        (
+            "Drift at 5,5, but do not leave your present place.",
+            [to(5, 5)],
+            (),
+            "contradiction limit-lost",
+        ),
         ("Stay tied up.", [to(0, 0)], (), None),
         ("Start with a drift. Scratch that, go to 9,9.", [drift(), to(9, 9)], (), "contradiction"),
         ("Go to the gauge at 9,60, it runs hot.", [to(9, 60)], (), None),

@@ -428,3 +428,10 @@ def test_a_value_that_the_task_prompt_contradicts_is_named() -> None:
     )
     assert "contradiction" not in kinds(right)
     assert 'radius is 20 m, and its prompt is "Circle' in str(wrong["warnings"])
+
+
+def test_what_would_hurt_is_named_whatever_is_planned() -> None:
+    for tasks in ([THERE, HOME], []):
+        assert "harm-asked" in kinds(planned("Ram the dinghy at [30, 40].", *tasks))
+        assert "harm-asked" not in kinds(planned("Do not ram the dinghy at [30, 40].", *tasks))
+        assert "harm-asked" not in kinds(planned("Run down the quay at [30, 40].", *tasks))
