@@ -8,7 +8,9 @@ one: two decimals), or four decimals and more, and stand in pairs unless they ha
 import functools
 import itertools
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from planner_ft.facts.numbers import read_numbers
 
 DIGITS_OF_DEGREES = 4  # decimals from which a bare number is rather degrees than metres
 BLANK = "|"  # stands in place of what was read already
@@ -31,6 +33,7 @@ _COORDINATE = re.compile(
 """`whole` and `packed` are degrees and minutes as receivers send them (4807.038,N; 480702N) or as
 they are spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N", "48 07 02 N".
 """
+_DICTATED = re.compile(r"[a-z] (?:(?:decimal|point) [a-z]|degrees? [a-z])", re.IGNORECASE)
 _BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 
 
@@ -46,7 +49,38 @@ class Geographic:
 
 @functools.lru_cache(maxsize=2048)
 def read_geographic(text: str) -> tuple[Geographic, ...]:
-    """The geographic positions of a text."""
+    """The geographic positions of a text, dictated ones too: "fifty degrees six decimal two minutes
+    north, ..."
+    """
+    written, places = _in_figures(text)
+    found = _read(written)
+    if not places:
+        return found
+    ends = ((places[one.start], places[one.end - 1] + 1) for one in found)
+    return tuple(
+        replace(one, start=start, end=end) for one, (start, end) in zip(found, ends, strict=True)
+    )
+
+
+def _in_figures(text: str) -> tuple[str, list[int]]:
+    """A text with its dictated numbers in figures, and the place of each character in `text`; none
+    where it has no such numbers.
+    """
+    if not _DICTATED.search(text):
+        return text, []
+    parts, places, done = list[str](), list[int](), 0
+    for number in read_numbers(text):
+        said = text[number.start : number.stop]
+        if number.start >= done and not any(map(str.isdigit, said)):
+            figures = f"{number.said:.10g}"
+            parts += [text[done : number.start], figures]
+            places += [*range(done, number.start), *[number.start] * (len(figures) - 1)]
+            places.append(number.stop - 1)
+            done = number.stop
+    return "".join([*parts, text[done:]]), [*places, *range(done, len(text))]
+
+
+def _read(text: str) -> tuple[Geographic, ...]:
     known = list(_COORDINATE.finditer(text))
     sure = [match for match in known if _is_degrees(match)]
     for one, two in itertools.pairwise(known):

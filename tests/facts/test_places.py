@@ -435,3 +435,32 @@ def test_coordinates_behind_at_or_to_are_no_other_numbers() -> None:
 def test_dictated_positions_behind_at_or_to_are_certain(text: str, place: tuple[int, int]) -> None:
     assert [(one.x, one.y) for one in read_positions(text) if one.certain] == [place]
     assert not any(one.certain for one in read_positions(f"{text[:4]} twenty five"))
+
+
+@pytest.mark.parametrize(
+    ("text", "latitude", "longitude"),
+    [
+        (
+            "to fifty three decimal four one one two north three decimal zero one eight one west. Stay",
+            53.4112,
+            -3.0181,
+        ),
+        (
+            "Go to fifty-seven degrees eight decimal four minutes north, two degrees four decimal two "
+            "minutes west, and wait",
+            57.14,
+            -2.07,
+        ),
+    ],
+)
+def test_dictated_degrees_are_geographic(text: str, latitude: float, longitude: float) -> None:
+    (place,) = read(text).geographic
+    assert (place.latitude, place.longitude) == pytest.approx((latitude, longitude), abs=1e-5)
+    assert text[place.start : place.end].startswith("fifty")
+    assert text[place.start : place.end].endswith("west")
+    assert read(text).positions == ()
+
+
+def test_dictated_metres_are_not_geographic() -> None:
+    for text in ("one point five north two point five east", "forty five degrees north of it"):
+        assert read(text).geographic == ()
