@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from planner_ft.document.track import Track
 from planner_ft.document.warnings import (
     asked,
+    data,
     directions,
     picked,
     places,
@@ -65,7 +66,7 @@ CHECKS: tuple[Check, ...] = (
     said.harm,
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
     *(places.taken_back, asked.against_itself, asked.conditions),
-    *(asked.without_words, asked.not_planned, asked.data_ruled_out, asked.data_not_planned),
+    *(asked.without_words, asked.not_planned, data.data_ruled_out, data.data_not_planned),
     *(route.performed, places.passed_elsewhere),
     *(places.unmoved, places.round_home, repeats.intervals, repeats.endless),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),

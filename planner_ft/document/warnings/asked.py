@@ -2,16 +2,13 @@
 
 import re
 from collections.abc import Iterator, Mapping
-from typing import Any
 
-from planner_ft.document.language import Ask, Clause, Data
+from planner_ft.document.language import Ask, Clause
 from planner_ft.document.track import place_of
-from planner_ft.document.warnings.case import Case, Warning, named, quoted, skills_of, warning
+from planner_ft.document.warnings.case import Case, Warning, quoted, skills_of, warning
 from planner_ft.facts import corrections, unknown_words
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.support.files import compact_json
-from planner_ft.vocabulary import Entry, Vocabulary
-from planner_ft.vocabulary.essentials import essentials_of
 
 STEM = 5  # first letters by which a word is found again
 NEAR = 24  # characters in which words that rule something out stand before it
@@ -70,7 +67,7 @@ def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator
     """(words, where in the clause) that ask for an unplanned task, or one that is impossible."""
     if clause.corrected:
         return
-    planned, sends = {task["title"] for task in case.tasks}, _sends(clause, case)
+    planned, sending = {task["title"] for task in case.tasks}, sends(clause, case)
     for ask in (one for one in case.spoken.asks if one not in gone):
         match = ask.said.search(clause.text)
         if match and any(case.vocabulary.task[title].docks for title in ask.tasks):
@@ -79,7 +76,7 @@ def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator
             is_noun = any(map(case.words["determiner"].fullmatch, before))
             match = None if is_noun else match
         # Data to be sent is named by how it came about, which may be long ago: "send the panorama".
-        missing = not _sent_by(ask, clause, case) & planned and (ask.sends or not sends)
+        missing = not _sent_by(ask, clause, case) & planned and (ask.sends or not sending)
         if match and missing and clause.wants(clause.start + match.start()):
             yield match[0], match.start()
     impossible = case.words["impossible"].match(clause.text.lstrip())
@@ -170,7 +167,7 @@ def _sent_by(ask: Ask, clause: Clause, case: Case) -> frozenset[str]:
     return ask.tasks.difference(*unnamed)
 
 
-def _sends(clause: Clause, case: Case) -> bool:
+def sends(clause: Clause, case: Case) -> bool:
     """Whether a clause asks for something to be sent."""
     return any(ask.sends and ask.said.search(clause.text) for ask in case.spoken.asks)
 
@@ -249,97 +246,10 @@ def home_and_not(case: Case) -> Iterator[Warning]:
         for clause in case.clauses
         if not clause.corrected
         for match in case.words["home"].finditer(clause.text)
+        if match.end() not in {at.end() for at in case.words["from_home"].finditer(clause.text)}
     ]
     if {wanted for wanted, _clause in said} == {True, False}:
         words = quoted(next(clause.text for wanted, clause in said if not wanted).strip(" ,;"))
         there = place_of(case.tasks[-1], case.vocabulary) == case.vocabulary.home
         ends = "ends there" if there else "does not end there"
         yield warning("contradiction", "home", about="home", words=words, ends=ends)
-
-
-def data_ruled_out(case: Case) -> Iterator[Warning]:
-    """Words that rule data out which steps of the plan gather."""
-    gathering = set[str]().union(*(gathered_by(task, case.vocabulary) for task in case.tasks))
-    for data in (one for one in case.spoken.data if one.ruled_out and one.skills & gathering):
-        for match in data.said.finditer(case.command):
-            skills = ", ".join(sorted(data.skills & gathering))
-            about = match[0].casefold()
-            yield warning("data-ruled-out", about=about, words=match[0], skills=skills)
-
-
-def data_not_planned(case: Case) -> Iterator[Warning]:
-    """Clauses with words for sensors or data that reach no skill. Data that is sent may have been
-    gathered long ago, and is not asked for.
-    """
-    own = [gathered_by(task, case.vocabulary) for task in case.tasks]
-    gathering = set[str]().union(*own)
-    # What waits says what it will gather, and data to be sent are not gathered anew.
-    waiting = [task["task_prompt"] for task in case.tasks if not task["skill_sequence"]]
-    valued = " ".join(str(value) for task in case.tasks for value in task["parameters"].values())
-    # An approach by GPS says so itself.
-    waiting += [case.vocabulary.task[task["title"]].description for task in case.tasks]
-    asked = [data for data in case.spoken.data if not data.ruled_out]
-    for clause in (one for one in case.typed if not (one.corrected or _sends(one, case))):
-        lost = [data for data in asked if not _gathered(data, gathering, waiting)]
-        spans = sorted(span for data in lost for span in clause.spans(data.said))
-        said = dict.fromkeys(case.command[start:end] for start, end in spans)
-        words = [one for one in said if one.casefold() not in valued.casefold()]
-        if words:
-            listed, about = ", ".join(f'"{one}"' for one in words), " ".join(words).casefold()
-            yield warning("data-not-planned", "nowhere", about=about, words=listed)
-        elif case.words["throughout"].search(clause.text) or _all_along(clause, case):
-            yield from _with_gaps(asked, clause, own, case)
-        elif case.words["everywhere"].search(clause.text):
-            yield from _once(asked, clause, own, case.tasks)
-
-
-def _all_along(clause: Clause, case: Case) -> bool:
-    """Whether a clause ends with words for the whole way."""
-    last = len(clause.text.rstrip(" ,;."))
-    return any(match.end() == last for match in case.words["all_along"].finditer(clause.text))
-
-
-def _with_gaps(
-    asked: list[Data], clause: Clause, own: list[set[str]], case: Case
-) -> Iterator[Warning]:
-    """Data that are asked for on every way, and one that does not gather them."""
-    for data in (one for one in asked if one.skills and any(clause.spans(one.said))):
-        ways = [
-            task
-            for task, names in zip(case.tasks, own, strict=True)
-            if task["skill_sequence"]
-            and task["title"] == case.vocabulary.transit
-            and not data.skills & names
-        ]
-        for task in ways[:1]:
-            words = quoted(clause.text.strip(" ,;"))
-            values: dict[str, Any] = {"words": words, "skills": ", ".join(sorted(data.skills))}
-            yield warning("data-not-planned", "gap", task, about=words.casefold(), **values)
-
-
-def _once(
-    asked: list[Data], clause: Clause, own: list[set[str]], tasks: list[dict[str, Any]]
-) -> Iterator[Warning]:
-    """Data that are asked for at several places, and that one task of several alike gathers."""
-    for data in (one for one in asked if one.skills and any(clause.spans(one.said))):
-        having = [task for task, names in zip(tasks, own, strict=True) if data.skills & names]
-        alike = [task for task in tasks if having and task["title"] == having[0]["title"]]
-        if len(having) == 1 and len(alike) > 1:
-            said, only = quoted(clause.text.strip(" ,;")), named(having[0])
-            skills, about = ", ".join(sorted(data.skills)), said.casefold()
-            values: dict[str, Any] = {"words": said, "only": only, "skills": skills}
-            yield warning("data-not-planned", "once", about=about, **values)
-
-
-def gathered_by(task: Entry, vocabulary: Vocabulary) -> set[str]:
-    """The skills that gather something in a task; of a task that waits those that are essential."""
-    names = {skill["name"] for _role, skill in skills_of(task)}
-    if not task["skill_sequence"]:
-        names = {*essentials_of(task["title"], vocabulary).skills}
-    return {name for name in names if vocabulary.skill[name].role == "perception"}
-
-
-def _gathered(data: Data, gathering: set[str], texts: list[str]) -> bool:
-    """Whether a skill gathers the data, or a text of a task speaks of it."""
-    found = data.skills & gathering if data.skills else gathering
-    return bool(found) or any(data.said.search(text) for text in texts)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import Point, place_of
-from planner_ft.document.warnings.asked import gathered_by
 from planner_ft.document.warnings.case import Case, Warning, quoted, same_place, warning
+from planner_ft.document.warnings.data import gathered_by
 from planner_ft.facts import Position
 from planner_ft.facts.places import rows_of
 from planner_ft.vocabulary import Entry

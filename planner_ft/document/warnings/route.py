@@ -14,7 +14,7 @@ from planner_ft.document.language import Clause
 from planner_ft.document.structures import MOVING, Structure, close_legs, closed_area, way_off
 from planner_ft.document.track import Leg, Point, place_of, shown, stated
 from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
-from planner_ft.facts.geographic import read_geographic
+from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
 from planner_ft.planning.limits import last_away, time_left, without_limits
 from planner_ft.planning.shapes import goal_of, shape_problem
@@ -58,7 +58,7 @@ def order(case: Case) -> Iterator[Warning]:
     progress, known = START, case.vocabulary
     for task in case.tasks:
         definition = known.task[task["title"]]
-        text = without_limits(task["task_prompt"], known)
+        text = without_geographic(without_limits(task["task_prompt"], known))
         places = [(place.x, place.y) for place in read_positions(text) if place.certain]
         if definition.arrival == "transit" and places and progress.here not in places:
             where = {"place": shown(places[0]), "transit": known.transit}

@@ -296,8 +296,8 @@ def _is_kept(clause: Clause, case: Case) -> bool:
         if not inside:
             # "Keep clear of it" names nothing: some text must keep the vehicle away.
             thing = case.words["boundary"].sub("", clause.text[away.end() :])
-            told = case.words["away"].search(plan.texts)
-            return plan.speaks_of(thing) if LONGER.search(thing) else told is not None
+            told = plan.polygons or case.words["away"].search(plan.texts)
+            return plan.speaks_of(thing) if LONGER.search(thing) else bool(told)
         return all(any(same_place(place, at) for at in limited) for place in inside)
     whole = case.words["whole_limit"].search(clause.text)
     known = plan.limited if whole else [*plan.limited, *plan.numbers]

@@ -124,6 +124,14 @@ def test_an_approach_by_gps_needs_no_log_of_positions() -> None:
         assert [one["kind"] for one in made["warnings"]].count("data-not-planned") == count
 
 
+def test_the_whole_way_round_is_not_the_way_there() -> None:
+    turn = step("ArcTurn", {"radius": 9})
+    turn["perception_skills"] = [{"name": "SetStreamRecording", "parameters": {}}]
+    orbit = task("PerformOrbit", {"center": [40, 0], "radius": 9}, [turn])
+    made = document([to(40), orbit], command="Once round [40, 0] at 9 m, video the whole way.")
+    assert "data-not-planned" not in [item["kind"] for item in made["warnings"]]
+
+
 def test_data_that_are_asked_for_everywhere_and_gathered_once_are_named() -> None:
     legs = []
     for x, skills in ((40, ["GetSeabedDepth"]), (80, [])):

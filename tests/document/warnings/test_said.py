@@ -51,6 +51,7 @@ def look(sectors: int) -> dict[str, Any]:
 REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
+BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
 BACKS = [to(1, 1), to(9, -34)]
 BERTHS = "Sound berths 1 and 2 at 9,9 and 9,9. Each 40 m wide x 20 m long, lines at 10 m."
 RAMP = "Visit the pier at 9,9 and the ramp at 30,9. On second thoughts leave out the ramp."
@@ -80,6 +81,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Map 50 x 50 m at 9,9, 10 m lines.", [grid(50, 50)], (), None),
         (AREA, [to(100, 50), to(0, 0)], (), "limit-lost"),
         (AREA, [to(100, 50), to(0, 0)], (FENCE,), None),
+        (f"{BOX} and never leave it. Go to 9,9.", [to(9, 9)], (FENCE,), None),
         (AREA, [to(100, 50), to(0, 200), to(200, 0), to(0, 0)], (), "limit-lost"),
         (PLATFORM, [to(100, 0)], (), "limit-lost"),
         (
