@@ -156,8 +156,8 @@ def read_positions(text: str) -> tuple[Position, ...]:
     """Pairs of neighbouring numbers that can be coordinates, whatever form they are written in, in
     the plain way of reading the text.
 
-    A pair is read both as it stands and by its directions, said behind the numbers or before them:
-    "40 south 12 east" and "south 40, east 12" are also (12, -40).
+    A pair is read by its directions, said behind the numbers or before them: "40 south 12 east" and
+    "south 40, east 12" are (12, -40).
     """
     return positions_of(text, read_numbers(text))
 
@@ -206,7 +206,8 @@ def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float,
     before, between = (max(0, first.start - 24), first.start), (first.stop, second.start)
     ways = _DIRECTED.match(text, *between), _DIRECTED.match(text, second.stop, second.end + 24)
     one, two = (_along(number, way) for number, way in zip((first, second), ways, strict=True))
-    yield one[0], two[0]
+    if one[1] != "y" and two[1] != "x":
+        yield one[0], two[0]
     if (one[1] is None) != (two[1] is None):
         # The direction belongs to what follows: "from 22/98 westwards".
         yield first.said, second.said
