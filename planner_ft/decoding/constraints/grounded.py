@@ -5,8 +5,8 @@ stated, or a stated length and bearing away from one that is; a text is a span, 
 order, as they stand or spelt right. A task input's own parameters are facts like those of its
 prompt.
 
-A span neither begins nor ends with a function word, unless it is quoted, nor with a possessive. A
-possessive may be dropped, a comma or a hyphen be a blank, a word in capitals be written small, and
+A span neither begins nor ends with a function word, unless it is quoted, nor with the possessive
+of what follows. It may be dropped, a comma or a hyphen be a blank, a word in capitals be written small, and
 a word that no list knows be replaced by a known one that is near.
 """
 
@@ -111,7 +111,7 @@ class Spans:
             letter = word.lower() == "a" and bool(after) and not after[0].isspace()
             begins = letter or ((before in QUOTES or not plain) and before != "_")
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
-            ends = ends and not (word.lower() == "s" and before in ("'", "’"))
+            ends = ends and not (after and word.lower() == "s" and before in ("'", "’"))
             following = [(gap, 1) for gap in _written_gaps(after[0], word)] if after else []
             if after[1:] and after[0] in ("'", "’") and more[0][0].lower() == "s":
                 following += [(gap, 2) for gap in _written_gaps(after[1], "s")]
