@@ -135,6 +135,7 @@ def _is_degrees(match: re.Match[str]) -> bool:
         or (match["minutes"] and _has_side(match))
         or decimals >= DIGITS_OF_DEGREES
         or (_has_letter(match) and decimals >= 2)
+        or (_has_side(match) and decimals >= DIGITS_OF_DEGREES - 1)
     )
 
 

@@ -8,6 +8,7 @@ keeps its distance, so its ends follow from side, length, distance and the struc
 import copy
 import itertools
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -27,6 +28,8 @@ COURSE = ("heading", "max_dist")
 """Those of a line: its course and its length."""
 SIDE, PASS = "side_id", ("length", "distance")
 """Those of a pass: the side of the structure, the length, and the distance from the face."""
+AGAIN = re.compile(r"\b(?:again|twice|times|back|both|repeat\w*)\b", re.IGNORECASE)
+"""Words of a task prompt with which a grid goes over its lanes once more."""
 SLACK, SHARE = 0.5, 0.02
 """Metres, and the share of a length, by which waypoints may differ from it."""
 MOST_WAYPOINTS = 128
@@ -60,14 +63,16 @@ def _is_pass(made: Sequence[Point], ends: Sequence[Point]) -> bool:
 
 
 def with_shape(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
-    """The steps with the waypoints of the task's shape, and what was set; as they are where
-    they make it, do something beside, or where the prompt says more of it than the parameters.
+    """The steps with the waypoints of the task's shape, and what was set; as they are where they
+    make it once, do something beside, or where the prompt says more of it than the parameters.
     """
     points, made = shape_points(task, vocabulary), [goal_of(step, vocabulary) for step in steps]
     goals = [goal for goal in made if goal]
     if not points or not goals or len(goals) < len(made) or not _is_plain(task, vocabulary):
         return list(steps), Added()
-    if not shape_problem(task, goals, vocabulary):
+    grid = vocabulary.task[task["title"]].pattern == "lawnmower"
+    twice = grid and len({*goals}) < len(goals) and not AGAIN.search(task["task_prompt"])
+    if not twice and not shape_problem(task, goals, vocabulary):
         return list(steps), Added()
     whole = [steps[min(at, len(steps) - 1)] for at in range(len(points))]
     return _placed(whole, enumerate(points), vocabulary)

@@ -461,6 +461,12 @@ def test_dictated_degrees_are_geographic(text: str, latitude: float, longitude: 
     assert read(text).positions == ()
 
 
+def test_three_decimals_with_a_side_are_degrees() -> None:
+    (place,) = read("go to 43.102 south 147.203 east and hold").geographic
+    assert (place.latitude, place.longitude) == (-43.102, 147.203)
+    assert read("go 43.10 south 147.20 east of it").geographic == ()
+
+
 def test_dictated_metres_are_not_geographic() -> None:
     for text in ("one point five north two point five east", "forty five degrees north of it"):
         assert read(text).geographic == ()

@@ -113,3 +113,12 @@ def test_a_large_grid_may_miss_its_sides_by_a_fiftieth(width, right):
     }
     points = lawnmower((0, 0), width, 300, width / 20)
     assert (shape_problem(task, points, load_vocabulary()) is None) is right
+
+
+def test_a_grid_is_run_once_unless_its_prompt_says_otherwise():
+    lanes = lawnmower((50, 30), 20, 40, 10)
+    back = go(*lanes, *lanes[-2::-1])
+    assert waypoints(with_shape(grid(), back, USV)[0]) == lanes
+    assert with_shape(grid("Map the depths around [50, 30], and back again."), back, USV)[0] == back
+    ring = go(*survey_square((50, 30), 10), (40, 20))
+    assert with_shape(square(), ring, USV)[0] == ring

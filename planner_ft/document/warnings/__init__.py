@@ -81,7 +81,14 @@ CHECKS: tuple[Check, ...] = (
     ),
     *(said.devices, directions.laid_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
-    *(values.unread, values.unsaid, values.unsaid_limits, values.unheard, values.unsought),
+    *(
+        values.unread,
+        values.unsaid,
+        values.said_once,
+        values.unsaid_limits,
+        values.unheard,
+        values.unsought,
+    ),
     *(values.unmentioned, values.declined),
     *(values.unsaid_skills, places.done_again, picked.elsewhere),
 )

@@ -21,7 +21,7 @@ from planner_ft.facts import (
 from planner_ft.facts.inputs import read_input
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.words import edit_distance, unknown_words, words
-from planner_ft.planning.shapes import pass_ends, shape_points
+from planner_ft.planning.shapes import SIZE, SPACING, pass_ends, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
@@ -58,6 +58,18 @@ def unsaid(case: Case) -> Iterator[Warning]:
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
                 yield warning("contradiction", "prompt", **about, words=words)
+
+
+def said_once(case: Case) -> Iterator[Warning]:
+    """A side of a grid that has the number of its spacing, which the command says once."""
+    for task in case.tasks:
+        definition, given = case.vocabulary.task[task["title"]], task["parameters"]
+        spacing = given.get(SPACING) if definition.pattern == "lawnmower" else None
+        numbers = (one for one in case.numbers if not case.is_coordinate(one))
+        said = [one for one in numbers if spacing and near(one.value, spacing)]
+        for name in (name for name in SIZE if len(said) == 1 and given.get(name) == spacing):
+            value = _shown(given[name], definition.by_name[name])
+            yield warning("value-not-said", "unsaid", task, name, name=name, value=value)
 
 
 def unsaid_limits(case: Case) -> Iterator[Warning]:
@@ -145,7 +157,8 @@ def _akin(word: str, other: str) -> bool:
 def _is_heard(word: str, told: str, said: list[str]) -> bool:
     """Whether a word stands in a text, in parts or spelt a little otherwise."""
     parts = all(part in told for part in re.split(r"[-'.]", word))
-    return parts or any(edit_distance(word, other, EDITS) <= EDITS for other in said)
+    most = min(EDITS, (len(word) - 1) // 2)
+    return parts or any(edit_distance(word, other, EDITS) <= most for other in said)
 
 
 def _contradicts(prompt: Facts, value: Any, parameter: Parameter) -> bool:

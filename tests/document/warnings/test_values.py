@@ -191,3 +191,32 @@ def test_things_and_tasks_that_are_not_there_are_those_of_the_command(
 def test_a_lost_value_is_shown_with_its_clause() -> None:
     found = texts(document([to()], command="Go to [30, 40], hold for 5 minutes."), "value-lost")
     assert found == ['The command says "5 minutes" ("hold for 5 minutes"), and no task has it.']
+
+
+def test_the_spacing_of_a_grid_is_not_its_size() -> None:
+    def told(command: str, **sizes: float) -> list[str]:
+        given = {"center": [80, 80], "spacing": 10, **sizes}
+        grid = task("BathymetryGridSurvey", given, None, "Map it.")
+        found = texts(document([grid], command=command), "value-not-said")
+        return [text for text in found if "width" in text or "length" in text]
+
+    once = "Depth survey, centre 80,80, lines ten metres apart."
+    assert len(told(once, width=10, length=10)) == 2
+    assert (
+        told(
+            "Depth survey, centre 80,80, ten by ten metres, lines ten metres apart.",
+            width=10,
+            length=10,
+        )
+        == []
+    )
+    assert told("Depths around 80,80, 40 by 20 m, lines 10 m.", width=40, length=20) == []
+
+
+def test_a_short_word_is_not_near_every_other_one() -> None:
+    prompts = (("Go to the rț at [30, 40].", 1), ("Go to the rig at [30, 40].", 0))
+    for prompt, count in prompts:
+        plan = document([to(GO, prompt=prompt)], command="Go on to the rig at [30, 40].")
+        plan["proposed"] = {"tasks": [dict(one) for one in plan["tasks"]]}
+        found = texts(revise(plan, USV), "value-not-said")
+        assert len([text for text in found if "its prompt says" in text]) == count
