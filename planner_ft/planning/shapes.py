@@ -28,6 +28,7 @@ COURSE = ("heading", "max_dist")
 """Those of a line: its course and its length."""
 SIDE, PASS = "side_id", ("length", "distance")
 """Those of a pass: the side of the structure, the length, and the distance from the face."""
+IN_NAME = re.compile(r" at \[")
 AGAIN = re.compile(r"\b(?:again|twice|times|back|both|repeat\w*)\b", re.IGNORECASE)
 """Words of a task prompt with which a grid goes over its lanes once more."""
 SLACK, SHARE = 0.5, 0.02
@@ -202,14 +203,14 @@ def shape_problem(task: TaskEntry, points: Sequence[Point], vocabulary: Vocabula
 
 
 def _is_plain(task: TaskEntry, vocabulary: Vocabulary) -> bool:
-    """Whether a prompt has no direction and no number beside places and the task's parameters, and
-    the run of a line in full.
+    """Whether a prompt has no direction and no number beside places, names ("pen 4 at [0, 40]") and
+    the task's parameters, and the run of a line in full.
     """
     prompt, given = without_limits(task["task_prompt"], vocabulary), task["parameters"]
     own = [value for value in given.values() if is_number(value)]
     placed = [range(one.start, one.end) for one in read_positions(prompt) if one.certain]
     outside = (one for one in read_numbers(prompt) if not any(one.start in at for at in placed))
-    said = [number.value for number in outside]
+    said = [number.value for number in outside if not IN_NAME.match(prompt, number.end)]
     course, run = (given.get(name) for name in COURSE)
     named = [number.value for number in read_bearings(prompt)]
     return (

@@ -122,3 +122,13 @@ def test_a_grid_is_run_once_unless_its_prompt_says_otherwise():
     assert with_shape(grid("Map the depths around [50, 30], and back again."), back, USV)[0] == back
     ring = go(*survey_square((50, 30), 10), (40, 20))
     assert with_shape(square(), ring, USV)[0] == ring
+
+
+def test_the_number_of_a_thing_is_no_value_of_its_survey():
+    wrong = go(*survey_square((50, 30), 15))
+    for prompt in (
+        "Survey pen 14 at [50, 30].",
+        "Survey pen 14 at [50, 30] at a stand-off of 10 m.",
+    ):
+        assert waypoints(with_shape(square(prompt), wrong, USV)[0]) == survey_square((50, 30), 10)
+    assert with_shape(square("Survey 14 corners at pen [50, 30]."), wrong, USV)[0] == wrong
