@@ -6,8 +6,8 @@ order, as they stand or spelt right. A task input's own parameters are facts lik
 prompt.
 
 A span neither begins nor ends with a function word, unless it is quoted, nor with the possessive
-of what follows. It may be dropped, a comma or a hyphen be a blank, a word in capitals be written small, and
-a word that no list knows be replaced by a known one that is near.
+of what follows. It may be dropped, a comma or a hyphen be a blank, a word in capitals be written
+small, and a word that no list knows be replaced by a known one that is near.
 """
 
 import functools

@@ -55,7 +55,7 @@ def _all_along(clause: Clause, case: Case) -> bool:
 
 
 def _is_elsewhere(asked: list[Data], clause: Clause, own: list[set[str]], case: Case) -> bool:
-    """Whether other tasks than transits gather what a clause says: "the whole way" may be theirs."""
+    """Whether other tasks than transits gather what a clause says; the way may be theirs."""
     wanted = set[str]().union(*(one.skills for one in asked if any(clause.spans(one.said))))
     both = zip(case.tasks, own, strict=True)
     return any(task["title"] != case.vocabulary.transit and wanted & names for task, names in both)
