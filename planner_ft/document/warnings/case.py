@@ -263,8 +263,8 @@ class PlanValues:
 
     def repeats(self, count: float, places: Sequence[Position], row: Sequence[Position]) -> bool:
         """Whether something is done just so often: an arc, each place, else any place or task, and
-        all of a row of which the plan goes to one again. A round begins where it began, so the first of
-        a row is not gone to less often than the last.
+        all of a row of which the plan goes to one again. A round begins where it began, so the
+        first of a row is not gone to less often than the last.
         """
         if any(near(abs(value), FULL * count) for value in self.numbers):
             return True
