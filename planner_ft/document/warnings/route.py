@@ -91,9 +91,10 @@ def endurance(case: Case) -> Iterator[Warning]:
     back = math.dist(case.path.last(home), home) / case.vehicle["cruise_speed"] if away else 0.0
     taken = _minutes(known["seconds"])
     taken += f" and {_minutes(back)} for the way home" if back >= 60 else ""
-    names, more = known["open"], len(known["open"]) - MOST_LISTED
-    listed = ", ".join(names[:MOST_LISTED]) + (f" and {more} more tasks" if more > 0 else "")
-    unknown = f" Not counted is what is not known of {listed}." if names else ""
+    numbers = [str(case.by_id[name]["number"]) for name in known["open"] if name in case.by_id]
+    more, several = len(numbers) - MOST_LISTED, "s" * (len(numbers) > 1)
+    listed = ", ".join(numbers[:MOST_LISTED]) + (f" and {more} more" if more > 0 else "")
+    unknown = f" Not counted is what is not known of task{several} {listed}." if numbers else ""
     words: dict[str, Any] = {"taken": taken, "limit": _minutes(lasts), "unknown": unknown}
     if known["seconds"] + back > lasts:
         yield warning("over-endurance", **words)

@@ -267,7 +267,7 @@ def test_the_time_may_be_the_endurance_and_what_is_not_known_matters_from_half_o
     assert over(600) == [] and len(over(601)) == 1
     assert over(300, OPEN) == [] and len(over(301, OPEN)) == 1
     (found,) = over(601, OPEN)
-    assert "11 min" in found and "10 min" in found and "not known of t2." in found
+    assert "11 min" in found and "10 min" in found and "not known of task 2." in found
     assert over(601) == ["The plan takes at least 11 min, and the vehicle lasts 10 min."]
 
 

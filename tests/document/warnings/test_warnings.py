@@ -256,7 +256,7 @@ def test_a_plan_may_last_as_long_as_the_vehicle_and_names_what_is_not_known() ->
     lasts = {"endurance": plan["estimate"]["seconds"]}
     assert kinds(revise({**plan, "vehicle": {**plan["vehicle"], **lasts}}, USV)) == []
     follow = task("KeepStation", {}, [step("VisualStationKeep")], "Hold.")
-    for count, words in ((MOST_LISTED, "and 1 more"), (MOST_LISTED + 2, "and 2 more tasks")):
+    for count, words in ((MOST_LISTED, "and 1 more"), (MOST_LISTED + 2, "and 2 more")):
         plan = document([THERE, *[follow] * count, HOME], command="Go to [30, 40] and come home.")
         short = {**plan, "vehicle": {**plan["vehicle"], "endurance": 1}}
         assert (words in text_of(revise(short, USV), "over-endurance")) == (count > MOST_LISTED)
