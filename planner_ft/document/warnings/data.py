@@ -34,7 +34,12 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
     asked = [data for data in case.spoken.data if not data.ruled_out]
     for clause in (one for one in case.typed if not (one.corrected or sends(one, case))):
         lost = [data for data in asked if not _gathered(data, gathering, waiting)]
-        spans = sorted(span for data in lost for span in clause.spans(data.said))
+        # In "a depth picture" is no picture.
+        kept = [span for data in asked if data not in lost for span in clause.spans(data.said)]
+        found = (span for data in lost for span in clause.spans(data.said))
+        spans = sorted(
+            one for one in found if not any(a <= one[0] and one[1] <= b for a, b in kept)
+        )
         said = dict.fromkeys(case.command[start:end] for start, end in spans)
         words = [one for one in said if one.casefold() not in valued.casefold()]
         if words:

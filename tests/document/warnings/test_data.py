@@ -35,6 +35,14 @@ def test_words_for_data_that_reach_no_skill_are_named_once_per_clause() -> None:
     assert warned(command, "SetStreamRecording", "GetSeabedDepth") == []
 
 
+def test_a_picture_of_the_depths_is_no_picture() -> None:
+    command = "Go to [40, 20], I want a depth picture."
+    assert warned(command, "GetSeabedDepth") == []
+    assert warned(command, "CaptureGeoSnapshot") == [
+        'The command speaks of "depth picture"; no step of the plan gathers that.'
+    ]
+
+
 def test_data_that_are_sent_are_not_those_that_are_gathered_now() -> None:
     names = {"target_list": ["video"]}
     send = task("SmartDataHarvest", names, [step("StationKeep")], "Upload the video.")
