@@ -16,7 +16,7 @@ _DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
 _METRES = r"(?:met(?:re|er)s?|m)\b"
 _SIGN = r"(?:minus |negative |[-−–])"
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"
-_PAIR = rf"{_NUMBER}\s*[,;/]?\s*{_NUMBER}"
+_PAIR = rf"{_NUMBER}\s*[,;/|]?\s*{_NUMBER}"
 
 _WRITTEN_PAIR = re.compile(
     rf"\[\s*{_PAIR}\s*\]|\(\s*{_PAIR}\s*\)"
@@ -28,14 +28,14 @@ PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(
-    rf"(?:[\s,;:/=]|comma|plus|and|by|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
+    rf"(?:[\s,;:/=]|(?<!\|)\|(?!\|)|comma|plus|and|by|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
     rf"|(?:(?:to )?the |due )?"
     rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
     re.IGNORECASE,
 )
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
 _LED = re.compile(rf"(?<![a-z])({_DIRECTION})\s*(?:of|by|[:=])?\s*{_SIGN}?\s*$", re.IGNORECASE)
-_PARTED = re.compile(r"[-−–]?[\d.]+(?:\s?;\s?| / )[-−–]?[\d.]+")
+_PARTED = re.compile(r"[-−–]?[\d.]+(?:\s?[;|]\s?| / )[-−–]?[\d.]+")
 _THIRD = re.compile(r",?\s(?:and|or)\s")
 _TIGHT = re.compile(r"[-−–]?\d{2,}(?:\.\d+)?/[-−–]?\d{2,}(?:\.\d+)?")
 """In "pen 3, 55/70" the number of the pen is no coordinate."""
@@ -222,7 +222,8 @@ def _are_plain(text: str, first: Number, second: Number) -> bool:
     between, measured = text[first.end : second.start], first.unit or second.unit
     digits = text[first.end - 1].isdigit() == text[second.end - 1].isdigit()
     blank = between.isspace() and digits and max(first.rank, second.rank) < REREAD
-    parted = between.strip().lower() in (",", ";", "comma", "plus") or between == " / "
+    signs = (",", ";", "|", "comma", "plus")
+    parted = between.strip().lower() in signs or between == " / "
     return (blank or parted) and not (measured or first.counts or second.counts)
 
 
@@ -254,8 +255,10 @@ def with_brackets(text: str) -> str:
         start, end = place.start, place.end
         axis = _X_FIRST.search(text, max(0, start - 24), start)
         told = _is_led(text, place) or _PARTED.fullmatch(text, start, end)
-        if place.certain and told and start >= done and not _OPENED.search(text[:start][-16:]):
-            written = f"[{place.x:.12g}, {place.y:.12g}]"
+        opened = _OPENED.search(text[:start][-16:])
+        if place.certain and told and start >= done and (not opened or "|" in text[start:end]):
+            written = f"{place.x:.12g}, {place.y:.12g}"
+            written = written if opened else f"[{written}]"
             parts += [text[done : axis.start() if axis else start], written]
             done = end
     return "".join([*parts, text[done:]])

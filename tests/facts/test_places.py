@@ -398,6 +398,7 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
         ("Patrol 2;-3, 4;5 twice", "Patrol [2, -3], [4, 5] twice"),
         ("easting 571240.5, northing 6020310", "[571240.5, 6020310]"),
         ("start at 96 / 28, ten metres", "start at [96, 28], ten metres"),
+        ("pile (96 | -28), then at 9 | 8", "pile (96, -28), then at [9, 8]"),
         # A comma alone, directions behind it, degrees and what is in brackets stay.
         ("First N50.1502 W5.0631, then E3 N4.", "First N50.1502 W5.0631, then [3, 4]."),
         ("Go to 4, 9, no, 5, 9.", "Go to 4, 9, no, 5, 9."),

@@ -178,8 +178,8 @@ def uneven_rows(case: Case) -> Iterator[Warning]:
 
 
 def done_again(case: Case) -> Iterator[Warning]:
-    """What is done again at a place that the command says once, without words for doing it again. A
-    way leads there again where nothing is done at its end.
+    """What is done again at a place that the command says once, or at once where the vehicle is,
+    without words for doing it again. A way leads there again where nothing is done at its end.
     """
     if any(case.words[name].search(case.command) for name in ("again", "repeats")):
         return
@@ -187,7 +187,10 @@ def done_again(case: Case) -> Iterator[Warning]:
     behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["self"]
     for task, arrival in zip(case.tasks, behind, strict=True):
         at, one = place_of(task, known), (task["title"], task["parameters"])
+        if at is None and one in done[-1:]:
+            yield warning("value-not-said", "asked", task, about="asked")
         if at is None or at == known.home:
+            done += [one] if at is None else []
             continue
         ends = one not in done[-1:] and arrival == "self"
         said = sum(same_place(place, at) for place in case.positions)

@@ -48,6 +48,7 @@ def look(sectors: int) -> dict[str, Any]:
     return task("HorizontalPanorama", {"sectors": sectors}, turns)
 
 
+SWEEP = task("BoatLandingClearanceSweep", {}, [step("StationKeep", {})])
 REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
@@ -506,3 +507,18 @@ def test_corners_of_the_area_that_is_planned_are_not_lost(
     said = [one["text"] for one in plan["warnings"] if one["kind"] == "value-lost"]
     assert len(said) == len(lost)
     assert all(any(f'"{words}' in text for text in said) for words in lost)
+
+
+@pytest.mark.parametrize(
+    ("command", "tasks", "count"),
+    [
+        ("Go to [9, 9] and sweep the boat landing.", [SWEEP, SWEEP], 1),
+        ("Go to [9, 9] and sweep the boat landing.", [SWEEP], 0),
+        ("Go to [9, 9] and sweep the boat landing, and again.", [SWEEP, SWEEP], 0),
+    ],
+)
+def test_a_task_that_is_done_again_at_once_is_told(
+    command: str, tasks: list[dict[str, Any]], count: int
+) -> None:
+    plan = document([to(9, 9), *tasks], command=command)
+    assert [one["id"] for one in plan["warnings"]].count("value-not-said:t3:asked") == count
