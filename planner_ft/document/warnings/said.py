@@ -1,6 +1,6 @@
-"""Measures, limits and repeats that the command says and the plan has not.
+"""Measures and limits that the command says and the plan has not.
 
-Facts of the text are compared with values of the plan; which words limit or repeat is data
+Facts of the text are compared with values of the plan; which words limit is data
 (planner_ft/document/english.toml).
 """
 
@@ -28,9 +28,8 @@ from planner_ft.vocabulary import Vocabulary
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
-SIZES = re.compile(
-    r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$"
-)  # stands before the second and third of "20 x 20 x 5"
+SIZES = re.compile(r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$")
+"""Stands before the second and third of "20 x 20 x 5"."""
 AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
