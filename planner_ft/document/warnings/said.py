@@ -39,6 +39,7 @@ NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 CORRECTED = 30  # characters between a value and its correction
 OFF = re.compile(r" off (?:it|her|him|them|the|that|this)\b", re.IGNORECASE)
 AT = re.compile(r"\bat $", re.IGNORECASE)
+NEAR = 12  # characters before words in which they are ruled out
 APART = 0.5  # metres beyond a line
 HOURS = 12  # the last one: "at six" is a time of day
 WORD = re.compile(r"\S+")
@@ -87,7 +88,9 @@ def measures(case: Case) -> Iterator[Warning]:
 def harm(case: Case) -> Iterator[Warning]:
     """Words for what would hurt somebody, or for leaving out rules and warnings."""
     for clause in case.typed:
-        if any(clause.spans(case.words["harm"])) and not clause.corrected:
+        found = case.words["harm"].search(clause.text)
+        before = clause.text[max(0, found.start() - NEAR) : found.start()] if found else ""
+        if found and not case.words["exclusion"].search(before) and not clause.corrected:
             words = quoted(clause.text.strip(" ,;."))
             yield warning("harm-asked", about=words.casefold(), words=words)
 

@@ -95,11 +95,7 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         (
             "Hold here, make coffee, and come home.",
             [hold(600), hold(600), BACK],
-            [
-                "value-not-said:t1:duration",
-                "value-not-said:t2:duration",
-                "value-not-said:t2:asked",
-            ],
+            ["value-not-said:t1:duration", "value-not-said:t2:duration", "value-not-said:t2:asked"],
         ),
         (
             "Go to [30, 40]. Come home, but do not come home.",

@@ -434,4 +434,5 @@ def test_what_would_hurt_is_named_whatever_is_planned() -> None:
     for tasks in ([THERE, HOME], []):
         assert "harm-asked" in kinds(planned("Ram the dinghy at [30, 40].", *tasks))
         assert "harm-asked" not in kinds(planned("Do not ram the dinghy at [30, 40].", *tasks))
+        assert "harm-asked" in kinds(planned("It won't leave [30, 40], so ram it.", *tasks))
         assert "harm-asked" not in kinds(planned("Run down the quay at [30, 40].", *tasks))
