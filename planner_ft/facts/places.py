@@ -28,7 +28,8 @@ PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+
 BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(
-    rf"(?:[\s,;:/=]|(?<!\|)\|(?!\|)|comma|plus|and|by|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
+    rf"(?:[\s,;:/=]|(?<!\|)\|(?!\|)|comma|plus|and|by"
+    rf"|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
     rf"|(?:(?:to )?the |due )?"
     rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
     re.IGNORECASE,

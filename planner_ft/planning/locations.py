@@ -15,6 +15,7 @@ from typing import Any
 
 from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
+from planner_ft.planning.limits import without_limits
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json
 from planner_ft.support.geodesy import Origin
@@ -52,7 +53,7 @@ def open_places(plan: Mapping[str, Any], vocabulary: Vocabulary) -> list[OpenPla
             searched.append(target(vocabulary.task[title], entry["parameters"]) or title)
         elif is_open(entry, vocabulary):
             needed.setdefault(_name_of(entry, searched, vocabulary), []).append(number)
-        elif name := _told_in_degrees(entry) or _passed(entry, searched, vocabulary):
+        elif name := _told_in_degrees(entry, vocabulary) or _passed(entry, searched, vocabulary):
             needed.setdefault(name, []).append(number)
     return [OpenPlace(name, tuple(numbers)) for name, numbers in needed.items()]
 
@@ -138,9 +139,9 @@ def settle(
         entry[IN_PROMPT] = f"{prompt[:end]} at {json.dumps(at)}{prompt[end:]}"
 
 
-def _told_in_degrees(entry: Mapping[str, Any]) -> str:
-    """The geographic position in a task prompt, which is no place without an origin."""
-    prompt: str = entry["task_prompt"]
+def _told_in_degrees(entry: Mapping[str, Any], vocabulary: Vocabulary) -> str:
+    """The geographic position of a task prompt, beside its limits: no place without an origin."""
+    prompt = without_limits(entry["task_prompt"], vocabulary)
     return next((prompt[at.start : at.end].strip() for at in read_geographic(prompt)), "")
 
 

@@ -179,3 +179,11 @@ def test_every_task_that_is_told_a_place_in_degrees_waits_for_it() -> None:
     filled = resolve(told, {degrees: (40.0, 30.0)}, USV)
     assert filled["tasks"][0]["parameters"] == {"target_position": [40, 30]}
     assert filled["tasks"][1]["task_prompt"] == "Hold at [40, 30]."
+
+
+def test_a_limit_in_degrees_makes_no_task_wait() -> None:
+    limit = "Keep at least 80 m from the wreck at 53.5460 N 9.9500 E."
+    assert (
+        open_places(plan(("Transit", {"target_position": [4, 5]}, f"Go to [4, 5]. {limit}")), USV)
+        == []
+    )

@@ -29,7 +29,7 @@ CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ag
 MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORECASE)
 """Words that are no time to be kept: "a second", "a good day"."""
 SIZES = re.compile(r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$")
-"""Stands before the second and third of "20 x 20 x 5"."""
+"""Stands before the later sizes of "20 x 20 x 5" and "40 m wide x 20 m long"."""
 AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
@@ -37,8 +37,8 @@ LONGEST_NAME = 24  # characters in which the name of a parameter stands before i
 NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30  # characters between a value and its correction
-OFF = re.compile(r" off (?:it|her|him|them|the|that|this)\b", re.IGNORECASE)
 AT = re.compile(r"\bat $", re.IGNORECASE)
+OFF = re.compile(r" off (?:it|her|him|them|the|that|this)\b", re.IGNORECASE)
 NEAR = 12  # characters before words in which they are ruled out
 APART = 0.5  # metres beyond a line
 HOURS = 12  # the last one: "at six" is a time of day
