@@ -40,6 +40,11 @@ _A_SECOND_ONE = re.compile(
 _NAME = re.compile(r"(?<![^\W_])(?P<letters>[^\W\d_]+)(?P<joint>[-_/]?)(?:\d+[-_/])*$")
 _LEADS_TO_NAME = re.compile(r"[-_][A-Z]+[-_]?\d")
 AXES = tuple("nsew")
+_BY_AXES = re.compile(
+    r"(?<![^\W_])(?:[ew][-−–]?\d+(?:\.\d+)?,?\s?[ns]|[ns][-−–]?\d+(?:\.\d+)?,?\s?[ew])[-−–]?\d",
+    re.IGNORECASE,
+)
+"""Coordinates, whose hyphens are signs: "E60 N-25"."""
 LONGEST_NAME = 24  # characters of a name before its last figures
 _THINGS = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 
@@ -170,7 +175,7 @@ def _at(row: Row, index: int) -> Iterator[tuple[Number, int]]:
 
 def _is_of_name(row: Row, index: int, number: Number) -> bool:
     """Whether figures are of a tag or name: "P-101", "11-TK-7", "T142"; not "for30 min", "x40"."""
-    if not row.word(index)[:1].isdigit():
+    if not row.word(index)[:1].isdigit() or _is_by_axes(row.text, number.start):
         return False
     if _LEADS_TO_NAME.match(row.text, number.stop):
         return True
@@ -183,6 +188,12 @@ def _is_of_name(row: Row, index: int, number: Number) -> bool:
     return letters.isupper() or not (
         number.unit or (not name["joint"] and len(letters) > 1 and is_known(letters))
     )
+
+
+def _is_by_axes(text: str, place: int) -> bool:
+    """Whether a figure is one of two coordinates behind their directions."""
+    found = _BY_AXES.finditer(text, max(0, place - LONGEST_NAME), place + LONGEST_NAME)
+    return any(pair.start() < place < pair.end() for pair in found)
 
 
 def _is_of_time(text: str, number: Number) -> bool:
@@ -204,6 +215,7 @@ def _sign(row: Row, index: int) -> int:
     left = row.text[max(0, start - 2) : start].lower()
     letter = left[-1:]
     axis = letter in ("x", "y") and not left[:-1].isalpha()
+    axis |= letter in AXES and _is_by_axes(row.text, first)
     return first - start if axis or not (letter.isalnum() or letter == ")") else 0
 
 
@@ -275,7 +287,7 @@ def _counts(row: Row, index: int, number: Number) -> bool:
     stands = number.said == 1 and word == "one" and lone
     part = word in lists.FRACTIONS and end == row.tokens[index].end and not added
     bearing = len(word) == 3 and word.isdigit() and word[0] == "0"
-    things = _THINGS.match(text, end)
+    things = None if last in ("by", "x") else _THINGS.match(text, end)
     thing = things is not None and _is_thing(things[1].lower())
     angle = bool(_ANGLE.search(text, max(0, start - 24), start))
     return stands or part or bearing or thing or angle

@@ -23,6 +23,7 @@ PASSED = 3  # words between a number and its unit: "quarter of a nautical mile"
 
 _TOKEN = re.compile(
     r"\d{1,3}(?:,\d{3})+(?=\s?(?:m|metres|meters|s|seconds)\b)"
+    r"|(?<![\d.,])(?:0,\d{1,2}(?=\s?(?:k?m|nm)\b)|\d,\d(?=\s?(?:m/s|kn|kts?|knots)\b))"
     rf"|(?:\d+\s?)?[{''.join(lists.VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
     r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
@@ -136,6 +137,11 @@ class Row:
                 yield 1.0, index + 1
         elif word in SMALL or word in SCALES:
             yield from self._spoken(index)
+        elif (tenths := self._tenths(index)) and self.unit(index + 1 + len(tenths))[0]:
+            # "At point five knots", but "at the centre point five minutes".
+            parts = [float(f"0.{tenths}"), float(tenths)]
+            behind = index + 1 + len(tenths)
+            yield from ((one, behind) for one in parts[self._is_place(index - 1) :])
 
     def half(self, index: int) -> Reading:
         """What "and a half", "and three quarters" add at `index`, and the index behind it."""
@@ -176,6 +182,8 @@ class Row:
     def _spoken(self, index: int) -> Iterator[Reading]:
         """A number in words: "one two zero" as over the radio, or "one hundred and twenty"."""
         said = self._digits(index)
+        if len(said) > 2 and self.word(index + len(said)) in SCALES:
+            said = said[:-1]  # "zero nine zero two hundred metres"
         radio = [(float(said[:count]), index + count) for count in range(len(said), 1, -1)]
         words = list(self._in_words(index))
         joined = len(said) == 2 and self.gap(index + 1) == "-" and int(said[1]) != int(said[0]) + 1
@@ -188,6 +196,12 @@ class Row:
         sure = two and (said[1] == "0" or joined or self.unit(index + 2)[0] is None)
         value, after = words[0]
         part = self.word(after)
+        for hundreds in self._hundreds(index):  # "at one sixty comma one ten"
+            if (
+                self.word(index - 1) in WORDS["before_hundreds"]
+                or self.word(hundreds[1]) == "comma"
+            ):
+                yield hundreds
         if len(said) > 2 or sure:
             yield radio[0]
         elif part in PARTS or self._is_part(after):
@@ -197,10 +211,13 @@ class Row:
         for number, behind in (*radio, *words):
             if len(said) == 2 or self._splits(behind):
                 yield number, behind
-        # "One eighty" is 180, "two twenty-five" 225.
+        yield from self._hundreds(index)
+
+    def _hundreds(self, index: int) -> Iterator[Reading]:
+        """ "One eighty" as 180, "two twenty-five" as 225."""
         first, tens, ones = (SMALL.get(self.word(index + place), 0) for place in range(3))
         if 0 < first < 10 <= tens:
-            more = 0 < ones < 10
+            more = tens >= 20 and 0 < ones < 10
             yield 100 * first + tens + more * ones, index + 2 + more
 
     def _in_words(self, start: int) -> Iterator[Reading]:
@@ -241,6 +258,9 @@ class Row:
         """The digits behind "point" at `index`, as figures."""
         return self._digits(index + 1) if self.word(index) in ("point", "decimal") else ""
 
+    def _is_place(self, index: int) -> bool:
+        return self.word(index) in WORDS["before_point"]
+
     def _splits(self, index: int) -> bool:
         """Whether one number can end before a token and another begin: "seventy / one hundred"."""
         apart = self.word(index) in SMALL and self.gap(index)
@@ -261,6 +281,8 @@ class Row:
 
 def _figure(word: str) -> float | None:
     """The value of a token in figures: "1,200", "2/3", "1½", "1e3"."""
+    if word[:2] == "0," or len(word) == 3:
+        word = word.replace(",", ".")
     if word[-1:] in lists.VULGAR:
         return float(word[:-1] or 0) + lists.VULGAR[word[-1]]
     if not word[-1:].isdigit():

@@ -65,12 +65,14 @@ _AXIS_BEHIND = re.compile(
     r"(?![a-z-]| (?:side|face|wall|end|edge|corner|of (?!home|base|here)))",
     re.IGNORECASE,
 )
+_TIMES = re.compile(r"(?<![a-z])x$", re.IGNORECASE)  # "grid x2"
 _COURSE = re.compile(r"\b(?:heading|bearing|course)(?: of)?\W{1,3}$", re.IGNORECASE)
 _COURSES = {
     **{name.replace("-", ""): 22.5 * place for place, name in enumerate(COMPASS)},
     **{name.lower(): 22.5 * place for place, name in enumerate(SHORT)},
 }
 _NAMES = "|".join(name.replace("-", r"[\s-]?") for name in sorted(COMPASS, key=len, reverse=True))
+_NAMES = re.sub(r"(?<=nor|sou)th", "(?:th|['’])", _NAMES)  # "nor'-east"
 # A hyphen stands between two directions, and in no "south-side".
 _BEARING = re.compile(
     rf"(?i:(?<!\w)(?<!(?<!north|south)(?<!east|west)-)(?P<point>{_NAMES})"
@@ -78,6 +80,7 @@ _BEARING = re.compile(
     r"|\b(?:[NSEW]{1,3}|[ns][ns]?[ew]|[ew][ns][ew])\b"
 )
 _BLANKS = re.compile(r"[\s-]")
+_SHORTENED = re.compile(r"(?<=nor|sou)['’]")
 
 
 @dataclass(frozen=True)
@@ -166,7 +169,7 @@ def read_positions(text: str) -> tuple[Position, ...]:
 @functools.lru_cache(maxsize=4096)
 def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]:
     """The positions that numbers of a text can be, the plainest first."""
-    found, taken = dict[Position, int](), list[Position]()
+    found, taken, whole = dict[Position, int](), list[Position](), list[Position]()
     for first, second in pairs((one for one in numbers if one.stop), MOST_BETWEEN):
         start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)
@@ -178,13 +181,17 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
             way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
             rank = max(first.rank, second.rank)
             led = None if way else _led(text, first, second)
+            directed = None not in _ways(text, first, second) and not _led_by(text, first)
             start = led.start if led else start
+            if led and any(_share(led, one) for one in whole):
+                continue
             taken += [led] if led else []
             for x, y in [(led.x, led.y)] if led else _readings(text, first, second):
                 certain = bool(plain or opened or parted or led)
                 place = Position(x, y, start, way.end() if way else end, certain)
                 found[place] = min(rank, found.get(place, REREAD))
-                taken += [place] if _TIGHT.fullmatch(text, start, end) else []
+                whole += [place] if directed else []
+                taken += [place] if directed or _TIGHT.fullmatch(text, start, end) else []
     # No number of "E12 N48, 100 m" is one of another position.
     known = [one for one in found if one in taken or not any(_share(one, led) for led in taken)]
     found = {one: found[one] for one in known}
@@ -204,8 +211,7 @@ def _share(one: Position, other: Position) -> bool:
 
 
 def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float, float]]:
-    before, between = (max(0, first.start - 24), first.start), (first.stop, second.start)
-    ways = _DIRECTED.match(text, *between), _DIRECTED.match(text, second.stop, second.end + 24)
+    before, ways = (max(0, first.start - 24), first.start), _ways(text, first, second)
     one, two = (_along(number, way) for number, way in zip((first, second), ways, strict=True))
     if one[1] != "y" and two[1] != "x":
         yield one[0], two[0]
@@ -214,6 +220,17 @@ def _readings(text: str, first: Number, second: Number) -> Iterator[tuple[float,
         yield first.said, second.said
     if one[1] == "y" or two[1] == "x" or _Y_FIRST.search(text, *before):
         yield two[0], one[0]
+
+
+def _ways(text: str, first: Number, second: Number) -> tuple[re.Match[str] | None, ...]:
+    """The directions behind two numbers: "40 south 12 east"."""
+    between = _DIRECTED.match(text, first.stop, second.start)
+    return between, _DIRECTED.match(text, second.stop, second.end + 24)
+
+
+def _led_by(text: str, number: Number) -> re.Match[str] | None:
+    """The direction that a number stands behind: "E1200"."""
+    return _LED.search(text, max(0, number.start - 24), number.start)
 
 
 def _are_plain(text: str, first: Number, second: Number) -> bool:
@@ -230,8 +247,7 @@ def _are_plain(text: str, first: Number, second: Number) -> bool:
 
 def _led(text: str, first: Number, second: Number) -> Position | None:
     """The position of two numbers that both stand behind their direction: "E1200 N0"."""
-    behind = (max(0, first.start - 24), first.start), (first.stop, second.start)
-    ways = [_LED.search(text, *span) for span in behind]
+    ways = _led_by(text, first), _LED.search(text, first.stop, second.start)
     numbers = zip((first, second), ways, strict=True)
     by_axis = {axis: value for value, axis in (_along(*pair) for pair in numbers)}
     if ways[0] is None or not {"x", "y"} <= by_axis.keys():
@@ -273,7 +289,9 @@ def unpaired_coordinates(text: str) -> bool:
         _AXIS_BEFORE.search(text[: one.start][-24:])
         or _AXIS_BEHIND.match(text[one.end : one.end + 40])
         for one in read_numbers(text)
-        if one.unit in ("m", None) and not any(at <= one.start < end for at, end in paired)
+        if one.unit in ("m", None)
+        and not any(at <= one.start < end for at, end in paired)
+        and not (one.said in range(10) and _TIMES.search(text, 0, one.start))
     )
 
 
@@ -282,7 +300,8 @@ def read_bearings(text: str) -> tuple[Number, ...]:
     """Compass directions that a text names, in degrees clockwise from north."""
     found = []
     for match in _BEARING.finditer(text):
-        angle = _COURSES.get(_BLANKS.sub("", match["point"] or match[0]).lower())
+        name = _SHORTENED.sub("th", (match["point"] or match[0]).lower())
+        angle = _COURSES.get(_BLANKS.sub("", name))
         if angle is not None:
             found.append(Number(angle, WRITTEN, *match.span(), "deg", angle))
     return tuple(found)

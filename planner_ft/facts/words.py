@@ -70,6 +70,7 @@ TURNS = {word: float(value) for value, words in _ENGLISH["turns"].items() for wo
 COMPASS = tuple(_ENGLISH["compass"]["names"].split())
 SHORT = tuple(_ENGLISH["compass"]["short"].split())
 """Compass points in steps of 22.5 degrees from north."""
+_SHORT = {short: name for short, name in zip(SHORT, COMPASS, strict=True) if len(short) < 3}
 WORDS = {name: tuple(words.split()) for name, words in _ENGLISH["words"].items()}
 TIMES: dict[str, float] = _ENGLISH["times"]  # words for how often
 MULTIPLES: dict[str, float] = _ENGLISH["multiples"]
@@ -182,6 +183,7 @@ class Phrases:
         for match in _WORD.finditer(text):
             word = match[0].lower().replace("’", "'")
             forms = {word, word.removesuffix("'s"), word.rstrip("'"), *_INNER.split(word)}
+            forms |= {_SHORT[match[0]]} if match[0] in _SHORT else set()
             for form in forms - {""}:
                 self._spans[form].append(match.span())
         few = len(self._spans) <= FEW_WORDS

@@ -31,6 +31,9 @@ SAID = """
     lanes {one zero metres = 10 m} apart | {3m30s = 210 s}
     {9 minutes = 540 s} and {half an hour = 1800 s} | {two = 2} {five-minute = 300 s} holds
     hold {two-five minutes = 1500 s} | hold {two = 2}-{three minutes = 180 s}
+    {point five knots = 0.257222 m/s} | {0,5 m/s = 0.5 m/s}
+    {zero nine zero = 90} {two hundred metres = 200 m} | {75 = 75} by {40 = 40} lanes
+    {minus one ten = -110} comma {one twenty five = 125} | at {one fifty = 150} comma {ninety = 90}
     {2/3 = 0.666667} of it | {5 = 5}/{5 = 5} and {5 = 5}/{35 = 35} | {.5 m/s = 0.5 m/s}
     {two metres a second = 2 m/s} | {18 km/h = 5 m/s} | {a full hour = 3600 s}
     {three-quarter = 0.75} circle | {one thousand six hundred and seventy-four metres = 1674 m}

@@ -176,6 +176,8 @@ POSITIONS = """
     W40 S12 => -40,-12 <W40 S12>!
     E12 N48, 100 m => 12,48 <E12 N48>!
     E1200 N0 => 1200,0 <E1200 N0>!
+    E60 N-25 => 60,-25 <E60 N-25>!
+    at 65 east 30 north: forty metres of it => 65,30 <65 east 30 north>!
     at minus twenty, minus five => -20,-5 <minus twenty, minus five>!
     at twenty, thirty metres => 20,30 <twenty, thirty metres>
     40, 40 due east => 40,40 <40, 40>
@@ -268,6 +270,7 @@ BEARINGS = """
     North 5 => 0 <North>
     Newton =>
     head north-west => 315 <north-west>
+    nor'-east, then sou'west => 45 <nor'-east>; 225 <sou'west>
     head northwest, then SSE => 315 <northwest>; 157.5 <SSE>
     lanes north south => 0 <north>; 180 <south>
     south-bound, east-north-east => 180 <south-bound>; 67.5 <east-north-east>
@@ -312,6 +315,7 @@ def test_turns(text: str, found: str) -> None:
     [
         ("x 40, thence on by 5 m for 8 s", (40, 5)),
         ("x is 40", (40,)),
+        ("the grid x2", ()),
         ("at 40 m east of home", (40,)),
         ("40 north of home", (40,)),
         ("North 5, then hold 8 s", (5,)),
@@ -431,6 +435,7 @@ def test_coordinates_behind_at_or_to_are_no_other_numbers() -> None:
         ("go to seventy twenty and film it", (70, 20)),
         ("to seven five plus thirty", (75, 30)),
         ("to one hundred twenty comma sixty", (120, 60)),
+        ("at one fifty comma minus one ten", (150, -110)),
     ],
 )
 def test_dictated_positions_behind_at_or_to_are_certain(text: str, place: tuple[int, int]) -> None:

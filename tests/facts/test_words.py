@@ -183,3 +183,9 @@ def test_a_phrase_is_no_part_of_a_longer_word() -> None:
     spans = read(text).phrases.spans("pier")
     assert [start for ((start, _end),) in spans] == [text.index("pier_"), len(text) - 4]
     assert read("pier").phrases.spans("pier") == [((0, 4),)]
+
+
+def test_letters_for_directions_say_their_names() -> None:
+    said = read("Along the N face and the SW wall, no S-bend").phrases
+    assert not said.missing("north", misspelt=False) + said.missing("south-west", misspelt=False)
+    assert said.missing("south", misspelt=False) == ["south"]
