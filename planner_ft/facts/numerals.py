@@ -219,6 +219,9 @@ class Row:
         if 0 < first < 10 <= tens:
             more = tens >= 20 and 0 < ones < 10
             yield 100 * first + tens + more * ones, index + 2 + more
+            behind = self.word(index + 3)
+            if more and (SMALL.get(behind, 0) >= 10 or behind in SCALES):  # "one fifty / one fifty"
+                yield 100 * first + tens, index + 2
 
     def _in_words(self, start: int) -> Iterator[Reading]:
         """A number in words ("one point two"), then those that its first words are alone."""

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from planner_ft.facts.dictated import dictated_pairs
 from planner_ft.facts.geographic import without_geographic
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.together import BY, REREAD, WRITTEN, Number, pairs
@@ -147,6 +148,7 @@ def written_pairs(text: str) -> list[tuple[int, int]]:
         plain = PAIR.fullmatch(text, one.start, one.end)
         plain = plain if not third or third.end() not in measured else None
         known += [(one.start, one.end)] if one.certain and (plain or _is_led(text, one)) else []
+    known += [pair[2:] for pair in dictated_pairs(text)]
     return [*(match.span() for match in _WRITTEN_PAIR.finditer(text)), *known]
 
 
@@ -169,7 +171,8 @@ def read_positions(text: str) -> tuple[Position, ...]:
 @functools.lru_cache(maxsize=4096)
 def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]:
     """The positions that numbers of a text can be, the plainest first."""
-    found, taken, whole = dict[Position, int](), list[Position](), list[Position]()
+    whole = [Position(*pair, certain=True) for pair in dictated_pairs(text)]
+    found, taken = dict.fromkeys(whole, WRITTEN), list(whole)
     for first, second in pairs((one for one in numbers if one.stop), MOST_BETWEEN):
         start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from planner_ft.facts import WAYPOINT, read
+from planner_ft.facts.dictated import dictated_pairs
 from planner_ft.facts.geographic import lone_coordinates
 from planner_ft.facts.places import read_positions, rows_of, with_brackets, written_positions
 
@@ -476,3 +477,39 @@ def test_three_decimals_with_a_side_are_degrees() -> None:
 def test_dictated_metres_are_not_geographic() -> None:
     for text in ("one point five north two point five east", "forty five degrees north of it"):
         assert read(text).geographic == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("along the wall at one ten minus fifty", (110, -50)),
+        ("at one thirty ninety at fifteen metres", (130, 90)),
+        ("to one fifty one hundred and hold", (150, 100)),
+        ("at two hundred one fifty forty metres off", (200, 150)),
+        ("at one fifty one fifty please", (150, 150)),
+        ("at sixty ten seventy five by forty", (60, 10)),
+        ("at twenty five sixty eighty metres long", (25, 60)),
+        ("at minus eighty five ten scan it", (-85, 10)),
+        ("to eight zero eight zero", (80, 80)),
+        ("to six five comma two five ten minutes", (65, 25)),
+        ("centred at one twenty sixty lanes every five metres", (120, 60)),
+        ("two piers: one at forty comma sixty one at the end", (40, 60)),
+    ],
+)
+def test_dictated_coordinates_are_those_of_one_place(text: str, place: tuple[int, int]) -> None:
+    known = read_positions(text)
+    assert [(one.x, one.y) for one in known if one.certain] == [place]
+    first = text.index(" at ") + 4 if " at " in text else 3
+    assert all((one.x, one.y) == place for one in known if abs(one.start - first) < 2)
+
+
+@pytest.mark.parametrize(
+    "text", ["turn to one hundred ninety", "at seventy minus twenty eight sectors"]
+)
+def test_words_that_can_be_split_in_several_ways_are_no_certain_place(text: str) -> None:
+    assert not dictated_pairs(text)
+
+
+def test_dictated_coordinates_are_no_other_numbers() -> None:
+    said = read("Go round the buoy at one ten eighty fifty metres off.")
+    assert {one.value for one in said.numbers("m")} == {50}

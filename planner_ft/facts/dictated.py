@@ -1,0 +1,104 @@
+"""Positions as speech recognisers write them: "at one ten minus fifty" is [110, -50]."""
+
+import functools
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from planner_ft.facts.numbers import read_all, read_rows
+from planner_ft.facts.together import Number
+from planner_ft.facts.words import SCALES, SMALL, WORDS
+
+SIGNS = ("minus", "negative", "plus", "comma")
+BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them belongs to
+MOST_WORDS = 12  # words of numbers in a row that are looked at
+_AT = re.compile(r"\b(?:at|to|near|around|from|on|position)\s+(?:(?:plus|uh|er)\s+)?$", re.I)
+_JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
+_BY = re.compile(r"\s+by\s")
+_SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)
+
+Pair = tuple[float, float, int, int]  # x, y, start, end
+
+
+@functools.lru_cache(maxsize=4096)
+def dictated_pairs(text: str) -> tuple[Pair, ...]:
+    """The coordinates behind "at" or "to" whose words can be said in one way as two numbers, or as
+    two and a third one with a unit, of a size or a count: "at one ten eighty fifty metres off".
+    """
+    found: list[Pair] = []
+    for start, end in _runs(text):
+        if not _AT.search(text, max(0, start - 24), start):
+            continue
+        starts = dict[int, list[Number]]()
+        for number in read_all(text):
+            if start <= number.start < number.stop <= end:
+                starts.setdefault(number.start, []).append(number)
+        paths = list(_paths(text, starts, start, end))
+        counted = any(path[-1].counts and text[end - 1].isalpha() for path in paths)
+        measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
+        more = measured or counted
+        if not more and any(len(path) == 1 for path in paths):
+            continue  # "turn to one hundred ninety"
+        sizes = (2, 3) if counted and not measured else (2 + more,)
+        whole = [path for path in paths if len(path) in sizes]
+        for plain in (_has_no_lone_digit, *(() if counted else (_is_even, _binds))):
+            whole = [path for path in whole if plain(text, path)] or whole
+        pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
+        found += pairs if len(pairs) == 1 else ()
+    return tuple(found)
+
+
+def _runs(text: str) -> Iterator[tuple[int, int]]:
+    """Where words of numbers stand in a row: two words at least, and no figures."""
+    row: list[tuple[int, int]] = []
+    for word, start, end in (*read_rows(text)[0].tokens, ("", len(text), len(text))):
+        numeral = word in SMALL or word in SCALES
+        if numeral or (word in SIGNS and (row or word in SIGNS[:2])):
+            row.append((start, end))
+            continue
+        if word in WORDS["behind_one"] and len(row) > 2 and text[slice(*row[-1])].lower() == "one":
+            row.pop()  # "two piers: one at forty comma sixty one at ninety comma ten"
+        if 1 < len(row) <= MOST_WORDS:
+            yield row[0][0], row[-1][1]
+        row = []
+
+
+def _has_no_lone_digit(text: str, path: list[Number]) -> bool:
+    """Whether no digit stands alone before its tens: "one / twenty / sixty"."""
+    return not any(0 < last < 10 <= first for last, first, words in _gaps(text, path) if words == 1)
+
+
+def _binds(text: str, path: list[Number]) -> bool:
+    """Whether no number ends where a digit behind belongs to it: "twenty / five sixty"."""
+    return not any(last in BINDING and 0 <= first < 10 for last, first, _ in _gaps(text, path))
+
+
+def _gaps(text: str, path: list[Number]) -> Iterator[tuple[float, float, int]]:
+    """The words on both sides of the blanks between numbers, and how many the first one has."""
+    for one, two in pairwise(path):
+        if text[one.stop : two.start].isspace():
+            words, behind = text[one.start : one.stop].lower().split(), text[two.start :].lower()
+            yield SMALL.get(words[-1], -1), SMALL.get(behind.split()[0], -1), len(words)
+
+
+def _is_even(text: str, path: list[Number]) -> bool:
+    """Whether both coordinates have as many words, two at least: "eight zero / eight zero"."""
+    said = (text[one.start : one.stop].lower().split() for one in path[:2])
+    first, second = (sum(word not in SIGNS for word in words) for words in said)
+    return first == second > 1
+
+
+def _paths(
+    text: str, starts: dict[int, list[Number]], place: int, end: int, most: int = 3
+) -> Iterator[list[Number]]:
+    """The ways to read a row of words whole, as up to `most` numbers."""
+    for number in starts.get(place, ()):
+        # "One fifty one / hundred", "one / fifty one hundred".
+        large = abs(number.said) >= 1000 and "thousand" not in text[place : number.stop].lower()
+        if _SCALE.match(text, place) or large:
+            continue
+        if number.stop == end:
+            yield [number]
+        elif most > 1 and number.unit is None and (joint := _JOINT.match(text, number.stop)):
+            for path in _paths(text, starts, joint.end(), end, most - 1):
+                yield [number, *path]
