@@ -217,7 +217,8 @@ class Ground:
     def areas(self) -> list[tuple[float, float, float, float]]:
         """Middle, width and length of every area that can be meant."""
         found = []
-        signs = [(0, 0), *(itertools.product((1, -1), repeat=2) if self.corners else ())]
+        corners = self.corners and not self._has_rectangle
+        signs = [(0, 0), *(itertools.product((1, -1), repeat=2) if corners else ())]
         ways = itertools.product(self.places, self.sizes, signs)
         for (x, y), (width, length), (right, up) in ways:
             found.append((x + right * width / 2, y + up * length / 2, width, length))
@@ -225,6 +226,13 @@ class Ground:
             middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
             found.append((*middle, abs(one[0] - other[0]), abs(one[1] - other[1])))
         return [area for area in dict.fromkeys(found) if area[2] and area[3]]
+
+    @property
+    def _has_rectangle(self) -> bool:
+        """Whether four of the centres are the corners of an area, which then is said whole."""
+        pairs = itertools.combinations(self.centres, 2)
+        across = ((one, two) for one, two in pairs if one[0] != two[0] and one[1] != two[1])
+        return any({(one[0], two[1]), (two[0], one[1])} <= {*self.centres} for one, two in across)
 
     @property
     def sides(self) -> list[float]:

@@ -22,6 +22,7 @@ from planner_ft.vocabulary import Parameter, Task, Vocabulary
 MOST_LENGTHS, MOST_PLACES = 9, 12
 """Stated lengths and places up to which waypoints are derived."""
 MOST_WORKED = 2000  # places that are worked out from those of a command
+ANEW = 20  # characters between a position and one of its coordinates that is told anew
 SIDES = ("width", "length")  # parameters that an area between two places has
 _UNREAD_SHAPES = re.compile(rf"\b(?:{'|'.join(WORDS['unread_shapes'])})s?\b", re.IGNORECASE)
 
@@ -150,15 +151,23 @@ class Input:
     @functools.cached_property
     def worked_places(self) -> tuple[Point, ...]:
         """Places in metres that follow from those of a mission's command, at most MOST_WORKED: one
-        or two stated ways off them, and the middles of areas between two of them or at a corner.
+        or two stated ways off them, the middles of areas between two of them or at a corner, and
+        those with one coordinate told anew ("40, 20, no, minus 30").
         """
         known = None if self.is_task else self._plain_ground
         if known is None:
             return ()
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
-        found = itertools.chain(off, middles, known.away(off))
+        found = itertools.chain(self._corrected(), off, middles, known.away(off))
         return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
+
+    def _corrected(self) -> Iterator[Point]:
+        bare = [one for one in read_numbers(self.facts.text) if one.unit is None and not one.counts]
+        for place in _apart(read_positions(self.facts.text)):
+            told = (one.value for one in bare if place.end <= one.start <= place.end + ANEW)
+            if (value := next(told, None)) is not None:
+                yield from ((place.x, value), (value, place.y))
 
     def _place(self, value: Any, tolerance: float, before: Iterable[Point] | None) -> Evidence:
         """Where a waypoint behind those `before` is from; None for a corner of an area."""

@@ -20,8 +20,10 @@ from planner_ft.training.model import (
     adapter_parameters,
     adapter_tensors,
     add_gradients,
+    blended,
     loss_sum,
     packs,
+    scaled,
     set_adapter,
     validation_loss,
 )
@@ -102,8 +104,8 @@ def train_loop(run: Run) -> None:
             if stopped:
                 run.ranks.wait()  # a launcher ends the others with the first that goes
                 raise InterruptedRunError(state.step, run.total_steps, stop)
-    if run.best is not None:
-        set_adapter(run.model, run.best)
+    kept = run.best or scaled(adapter_tensors(run.model), run.settings.blend)
+    set_adapter(run.model, kept)
 
 
 def _signal(run: Run, signals: list[int]) -> int:
@@ -200,30 +202,37 @@ def _end_epoch(run: Run) -> None:
     text = f"epoch {epoch:g}: training loss {state.loss:.4f}"
     state.epoch_loss, state.epoch_tokens = 0.0, 0
     if run.validation:
-        known = run.model, run.validation, run.pad, run.device, run.dtype
-        loss = validation_loss(*known, run.ranks)
-        if not math.isfinite(loss):
-            rate = f"lower --learning-rate (now {run.settings.learning_rate:g})"
-            raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; {rate}")
-        answers = run.judge.answers(adapter=True) if run.judge else None
-        rank = [loss]
-        if answers and run.settings.select == "f1":
-            found = means(answers)
-            rank = [-found["f1"], -found["exact_sequence"], loss]
-        last = run.settings.select == "last"
-        best = last or state.best_rank is None or rank < state.best_rank
-        if best:
-            state.best_loss, state.best_epoch, state.best_rank = loss, epoch, rank
-            state.best_answers = answers
-            run.best = adapter_tensors(run.model)
-        record = {"step": state.step, "epoch": epoch, "train_loss": state.loss}
-        record |= {"validation_loss": loss, "best": best, **means(answers or [])}
-        record["seconds"] = round(time.monotonic() - begun, 3)
-        state.history.append(record)
-        run.report.record(record)
-        text += f", validation loss {loss:.4f}{' (best)' if best and not last else ''}"
-        text += f"; {_summary(answers)}" if answers else ""
+        with blended(run.model, run.settings.blend):
+            text += _validate(run, epoch, begun)
     run.report.note(text)
+
+
+def _validate(run: Run, epoch: float, begun: float) -> str:
+    """The loss and answers of the validation split; the adapter is kept if it is the best."""
+    state = run.state
+    known = run.model, run.validation, run.pad, run.device, run.dtype
+    loss = validation_loss(*known, run.ranks)
+    if not math.isfinite(loss):
+        rate = f"lower --learning-rate (now {run.settings.learning_rate:g})"
+        raise PlannerError(f"epoch {epoch:g}: the validation loss is {loss}; {rate}")
+    answers = run.judge.answers(adapter=True) if run.judge else None
+    rank = [loss]
+    if answers and run.settings.select == "f1":
+        found = means(answers)
+        rank = [-found["f1"], -found["exact_sequence"], loss]
+    last = run.settings.select == "last"
+    best = last or state.best_rank is None or rank < state.best_rank
+    if best:
+        state.best_loss, state.best_epoch, state.best_rank = loss, epoch, rank
+        state.best_answers = answers
+        run.best = adapter_tensors(run.model)
+    record = {"step": state.step, "epoch": epoch, "train_loss": state.loss}
+    record |= {"validation_loss": loss, "best": best, **means(answers or [])}
+    record["seconds"] = round(time.monotonic() - begun, 3)
+    state.history.append(record)
+    run.report.record(record)
+    text = f", validation loss {loss:.4f}{' (best)' if best and not last else ''}"
+    return text + (f"; {_summary(answers)}" if answers else "")
 
 
 def means(answers: Sequence[Answer]) -> dict[str, float]:

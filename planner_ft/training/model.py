@@ -101,6 +101,26 @@ def set_adapter(model: Any, tensors: dict[str, Tensor]) -> None:
             value.copy_(tensors[name])
 
 
+@contextlib.contextmanager
+def blended(model: Any, share: float) -> Iterator[None]:
+    """In the block the adapter changes the base by this share of what it has learnt (WiSE-FT,
+    Wortsman et al. 2022, arXiv 2109.01903).
+    """
+    before = adapter_tensors(model) if share != 1 else {}
+    if before:
+        set_adapter(model, scaled(before, share))
+    try:
+        yield
+    finally:
+        if before:
+            set_adapter(model, before)
+
+
+def scaled(tensors: dict[str, Tensor], share: float) -> dict[str, Tensor]:
+    """Weights from `adapter_tensors` with this share of their change of the base."""
+    return {name: value * share if "lora_B" in name else value for name, value in tensors.items()}
+
+
 def autocast(device: torch.device, dtype: torch.dtype) -> torch.autocast:
     """Layers compute in `dtype` in the block."""
     return torch.autocast(device.type, dtype=dtype, enabled=dtype != torch.float32)

@@ -51,6 +51,7 @@ class TrainSettings:
     vocabulary_in_prompt: bool = False
     max_steps: int | None = None
     select: Literal["loss", "f1", "last"] = "loss"
+    blend: float = 1.0
     validation_answers: int = 25
 
     device: str = "auto"

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from rich.console import Console
+from safetensors.torch import load_file
 
 from planner_ft.benchmark.judge import Judge, small_form
 from planner_ft.decoding.forward import read_forms
@@ -72,6 +73,23 @@ def test_the_last_adapter_can_be_kept_whatever_its_loss(
     monkeypatch.setattr("planner_ft.training.loop.validation_loss", lambda *_known: next(rising))
     result = train(ask(**short, select=select), quiet, Scripted)["result"]
     assert (result["best_epoch"], result["validation_loss"]) == (kept, float(kept))
+
+
+def test_a_blended_adapter_changes_the_base_by_its_share(
+    ask: Callable[..., Any], quiet: Console, short: dict[str, Any], tmp_path: Path
+) -> None:
+    learnt, losses = list[dict[str, Any]](), list[list[float]]()
+    for blend in (1.0, 0.25):
+        output = tmp_path / f"blend-{blend}"
+        wanted = {**short, "blend": blend, "select": "last", "output": str(output)}
+        result = train(ask(**wanted), quiet, Scripted)["result"]
+        losses.append([entry["train_loss"] for entry in result["history"]])
+        learnt.append(load_file(output / "adapter_model.safetensors"))
+    whole, part = learnt
+    assert losses[0] == losses[1], "training itself is the same"
+    for name, value in whole.items():
+        share = 0.25 if "lora_B" in name else 1.0
+        assert value.any() and part[name].allclose(value * share), name
 
 
 def test_a_resumed_run_keeps_the_answers_and_the_losses(

@@ -141,6 +141,7 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
             "augment",
             "vary",
             "select",
+            "blend",
             "validation_answers",
         ):
             assert request.origin[setting].endswith(f"{name}.toml"), setting
