@@ -163,8 +163,15 @@ class Input:
         return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
 
     def _corrected(self) -> Iterator[Point]:
-        bare = [one for one in read_numbers(self.facts.text) if one.unit is None and not one.counts]
-        for place in _apart(read_positions(self.facts.text)):
+        apart = _apart(read_positions(self.facts.text))
+        bare = [
+            one
+            for one in read_numbers(self.facts.text)
+            if one.unit is None
+            and not one.counts
+            and not any(place.start <= one.start < place.end for place in apart)
+        ]
+        for place in apart:
             told = (one.value for one in bare if place.end <= one.start <= place.end + ANEW)
             if (value := next(told, None)) is not None:
                 yield from ((place.x, value), (value, place.y))

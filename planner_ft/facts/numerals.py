@@ -192,6 +192,9 @@ class Row:
         if len(said) > 1 and tenths:  # "six zero decimal five"
             yield float(f"{said}.{tenths}"), index + len(said) + 1 + len(tenths)
             return
+        if two and said[1] == "0" and self.unit(index + 2)[0]:  # "one-zero minutes"
+            yield radio[0]
+            return
         # "Two five minute holds" may be two.
         sure = two and (said[1] == "0" or joined or self.unit(index + 2)[0] is None)
         value, after = words[0]
