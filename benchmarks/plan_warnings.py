@@ -31,11 +31,13 @@ from planner_ft.vocabulary.plans import step_skills
 USV = load_vocabulary()
 SEED = 23
 COUNTED = {
-    "mission": tuple(kind for kind in SERIOUS if kind not in ("unresolved-location", "no-skills")),
+    "mission": tuple(
+        kind for kind in SERIOUS if kind not in ("unresolved-location", "no-skills", "left-out")
+    ),
     "task": ("skill-value-not-said", "out-of-reach"),
 }
-"""Serious kinds that say that something is wrong. An open place and missing skills are facts of a
-right plan, too; a task apart from its mission, with parameters that its prompt does not repeat and
+"""Serious kinds that say that something is wrong. An open place, missing skills and what the vehicle
+has no task for are facts of a right plan, too; a task apart from its mission, with parameters that its prompt does not repeat and
 a boundary that the sampler draws anywhere, can be judged by its skills alone.
 """
 Document = dict[str, Any]

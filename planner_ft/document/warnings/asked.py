@@ -63,6 +63,13 @@ def not_planned(case: Case) -> Iterator[Warning]:
                 yield warning("not-planned", words=asked, about=words.casefold())
 
 
+def left_out(case: Case) -> Iterator[Warning]:
+    """What the plan itself says that the vehicle has no task for. A plan without tasks says why."""
+    for line in case.document.get("constraints", ()) if case.tasks else ():
+        if case.words["unable"].match(line):
+            yield warning("left-out", words=line.rstrip("."), about=line.casefold())
+
+
 def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator[tuple[str, int]]:
     """(words, where in the clause) that ask for an unplanned task, or one that is impossible."""
     if clause.corrected:

@@ -24,6 +24,7 @@ from planner_ft.facts.units import in_base_units
 from planner_ft.planning.frame import frame_of
 from planner_ft.support.files import read_toml
 from planner_ft.vocabulary import Entry, Vocabulary
+from planner_ft.vocabulary.essentials import essentials_of
 from planner_ft.vocabulary.plans import step_skills
 
 Severity = Literal["danger", "caution", "note"]
@@ -162,6 +163,14 @@ def skills_of(task: Entry) -> Iterator[tuple[str, dict[str, Any]]]:
 Check = Callable[[Case], Iterator[Warning]]
 
 
+def _own_values(task: Entry, vocabulary: Vocabulary) -> Iterator[dict[str, Any]]:
+    """The values of a task's skills, but for those that the vehicle takes where none is stated."""
+    known = essentials_of(task["title"], vocabulary).skills
+    for _role, skill in skills_of(task):
+        taken, given = known.get(skill["name"], {}), skill["parameters"].items()
+        yield {name: value for name, value in given if taken.get(name) != value}
+
+
 class PlanValues:
     """The values of a plan: of tasks with their skills, of limits, and places in texts. `gone` are
     its waypoints in order, `meant` the places that tasks and limits have, each as `spot`s.
@@ -171,7 +180,8 @@ class PlanValues:
     def __init__(self, document: Entry, command: Input, said: Sequence[Position]) -> None:
         tasks, limits = document["tasks"], document.get("limits", ())
         skills = [skill for task in tasks for _role, skill in skills_of(task)]
-        given = [owner["parameters"] for owner in (*tasks, *skills)]
+        given = [task["parameters"] for task in tasks]
+        given += [own for task in tasks for own in _own_values(task, command.vocabulary)]
         own = [value for values in given for value in values.values()]
         gone = [(values["x"], values["y"]) for values in given if {"x", "y"} <= values.keys()]
         self.gone = gone

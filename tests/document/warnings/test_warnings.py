@@ -305,7 +305,19 @@ def test_what_a_plan_declines_need_not_be_planned() -> None:
         HOME,
         constraints=["The vehicle has no task to weld the rail."],
     )
-    assert kinds(plan) == []
+    assert kinds(plan) == ["left-out"]
+    text = "The plan leaves something out: The vehicle has no task to weld the rail."
+    assert plan["warnings"][0]["text"] == text
+
+
+def test_the_radius_of_a_hold_is_no_answer_to_a_limit() -> None:
+    hold = step("StationKeep", {"time": 600, "radius": 2})
+    plan = document(
+        [task("KeepStation", {"duration": 600}, [hold])],
+        command="Hold 10 minutes, never with less than 2 m under the keel.",
+    )
+    revised = revise(plan, USV)
+    assert any("2 m" in item["text"] for item in revised["warnings"])
 
 
 def test_answers_that_cannot_be_used() -> None:
