@@ -12,7 +12,7 @@ from typing import Any
 from planner_ft.facts import places, reading
 from planner_ft.facts.geometry import CLOSE, Ground, Point, sector_counts, turned
 from planner_ft.facts.numbers import read_numbers
-from planner_ft.facts.places import Position, read_positions
+from planner_ft.facts.places import Position, read_positions, rows_of_sizes
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
 from planner_ft.facts.together import Number
 from planner_ft.facts.units import base_of, converted, named
@@ -163,18 +163,22 @@ class Input:
         return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
 
     def _corrected(self) -> Iterator[Point]:
-        apart = _apart(read_positions(self.facts.text))
-        bare = [
-            one
-            for one in read_numbers(self.facts.text)
-            if one.unit is None
-            and not one.counts
-            and not any(place.start <= one.start < place.end for place in apart)
-        ]
-        for place in apart:
-            told = (one.value for one in bare if place.end <= one.start <= place.end + ANEW)
-            if (value := next(told, None)) is not None:
-                yield from ((place.x, value), (value, place.y))
+        """Positions with one coordinate told anew behind them."""
+        text, apart = self.facts.text, _apart(read_positions(self.facts.text))
+        sizes = {one for row in rows_of_sizes(text) for one in row}
+        numbers = [one for one in read_numbers(text) if one not in sizes]
+        for place, after in itertools.zip_longest(apart, apart[1:]):
+            behind = (one for one in numbers if one.start >= place.end)
+            told = next(behind, None)
+            if (
+                told
+                and told.unit is None
+                and not told.counts
+                and not (after and after.start <= told.start)
+            ):
+                between = text[place.end : told.start]
+                if len(between) <= ANEW and any(map(str.isalpha, between)):
+                    yield from ((place.x, told.value), (told.value, place.y))
 
     def _place(self, value: Any, tolerance: float, before: Iterable[Point] | None) -> Evidence:
         """Where a waypoint behind those `before` is from; None for a corner of an area."""

@@ -74,7 +74,7 @@ CHECKS: tuple[Check, ...] = (
         data.data_not_planned,
     ),
     *(route.performed, places.passed_elsewhere),
-    *(places.unmoved, places.round_home, repeats.intervals, repeats.endless),
+    *(places.unmoved, places.round_home, repeats.intervals, repeats.endless, repeats.to_and_fro),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
     *(said.crossed, said.clock_times, places.geographic, places.rows, places.uneven_rows),
     *(

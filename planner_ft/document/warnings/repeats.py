@@ -3,10 +3,11 @@
 import itertools
 import math
 import re
+from collections import Counter
 from collections.abc import Iterator
 
 from planner_ft.document.track import place_of
-from planner_ft.document.warnings.case import Case, Warning, quoted, warning
+from planner_ft.document.warnings.case import Case, Warning, quoted, spot, warning
 from planner_ft.facts import near
 from planner_ft.facts.places import rows_of
 
@@ -62,6 +63,16 @@ def endless(case: Case) -> Iterator[Warning]:
             words = quoted(clause.text.strip(" ,;."))
             yield warning("repeat-lost", "endless", about=words.casefold(), words=words)
             break
+
+
+def to_and_fro(case: Case) -> Iterator[Warning]:
+    """Words for going between places several times, where the plan goes to none of them again."""
+    home = tuple(case.vocabulary.home)
+    again = Counter(spot(at) for at in case.plan.gone if tuple(at) != home)
+    found = case.words["to_and_fro"].search(case.text)
+    if found and case.wants(found.start()) and case.tasks and max(again.values(), default=0) < 2:
+        words = case.text[found.start() : found.end()]
+        yield warning("repeat-lost", "to_and_fro", about=words.casefold(), words=words)
 
 
 def repeats(case: Case) -> Iterator[Warning]:

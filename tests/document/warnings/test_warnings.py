@@ -448,3 +448,26 @@ def test_what_would_hurt_is_named_whatever_is_planned() -> None:
         assert "harm-asked" not in kinds(planned("Do not ram the dinghy at [30, 40].", *tasks))
         assert "harm-asked" in kinds(planned("It won't leave [30, 40], so ram it.", *tasks))
         assert "harm-asked" not in kinds(planned("Run down the quay at [30, 40].", *tasks))
+
+
+def test_a_place_that_goes_by_its_letter_can_be_left_out() -> None:
+    points = [(10, 20), (30, 25), (50, 20)]
+    tasks = [
+        task("Transit", {"target_position": [x, y]}, [step("GoToXY", {"x": x, "y": y})])
+        for x, y in points
+    ]
+    plan = planned("Points: A 10,20, B 30,25, C 50,20. Forget B, there is eelgrass.", *tasks)
+    assert kinds(plan) == ["contradiction"]
+    kept = planned("Points: A 10,20, B 30,25, C 50,20. Forget B.", tasks[0], tasks[2])
+    assert kinds(kept) == []
+
+
+def test_a_shuttle_goes_to_its_places_again() -> None:
+    ways = {
+        x: task("Transit", {"target_position": [x, 30]}, [step("GoToXY", {"x": x, "y": 30})])
+        for x in (30, 60)
+    }
+    command = "Go back and forth between 30,30 and 60,30."
+    once = planned(command, ways[30], ways[60])
+    again = planned(command, *([ways[30], ways[60]] * 2))
+    assert ("repeat-lost" in kinds(once), "repeat-lost" in kinds(again)) == (True, False)
