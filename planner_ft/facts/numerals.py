@@ -157,8 +157,8 @@ class Row:
         if first in MIXED:
             return MIXED[first], index + 2
         place = index + 1 + (first in ("a", "one"))
-        # "Nine minutes and half an hour" are two.
-        if self.word(place) not in FRACTIONS or self.word(place + 1) in ("a", "an"):
+        # "Nine minutes and half an hour" are two, and "a third one" is a thing.
+        if self.word(place) not in FRACTIONS or self.word(place + 1) in ("a", "an", "one"):
             return nothing
         return FRACTIONS[self.word(place)], place + 1
 

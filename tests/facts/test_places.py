@@ -487,6 +487,7 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("to one fifty one hundred and hold", (150, 100)),
         ("at two hundred one fifty forty metres off", (200, 150)),
         ("at one fifty one fifty please", (150, 150)),
+        ("take one at ten fifty and a third one behind it", (10, 50)),
         ("at sixty ten seventy five by forty", (60, 10)),
         ("at twenty five sixty eighty metres long", (25, 60)),
         ("at minus eighty five ten scan it", (-85, 10)),
