@@ -15,6 +15,7 @@ MOST_WORDS = 12  # words of numbers in a row that are looked at
 _AT = re.compile(r"\b(?:at|to|near|around|from|on|position)\s+(?:(?:plus|uh|er)\s+)?$", re.I)
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
 _BY = re.compile(r"\s+by\s")
+_TIMES = re.compile(r"\s+times\b")
 _SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)
 
 Pair = tuple[float, float, int, int]  # x, y, start, end
@@ -34,7 +35,7 @@ def dictated_pairs(text: str) -> tuple[Pair, ...]:
             if start <= number.start < number.stop <= end:
                 starts.setdefault(number.start, []).append(number)
         paths = list(_paths(text, starts, start, end))
-        counted = any(path[-1].counts and text[end - 1].isalpha() for path in paths)
+        counted = any(path[-1].counts for path in paths) or _TIMES.match(text, end) is not None
         measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
         more = measured or counted
         if not more and any(len(path) == 1 for path in paths):

@@ -267,14 +267,16 @@ def _along(number: Number, way: re.Match[str] | None) -> tuple[float, str | None
 
 def with_brackets(text: str) -> str:
     """The text with its positions in the form of plans, where their notation leaves no doubt:
-    "easting 72, northing 36", "x=72 y=36" and "at 72 / 36" as "[72, 36]". A comma alone ("at 72,
-    36"), directions behind ("12 m south of the buoy") and geographic positions stay.
+    "easting 72, northing 36", "x=72 y=36", "at 72 / 36" and, dictated, "at seventy two thirty six"
+    as "[72, 36]". A comma alone ("at 72, 36"), directions behind ("12 m south of the buoy") and
+    geographic positions stay.
     """
-    parts, done = list[str](), 0
-    for place in read_positions(without_geographic(text)):
+    parts, done, local = list[str](), 0, without_geographic(text)
+    dictated = {pair[2] for pair in dictated_pairs(local)}
+    for place in read_positions(local):
         start, end = place.start, place.end
         axis = _X_FIRST.search(text, max(0, start - 24), start)
-        told = _is_led(text, place) or _PARTED.fullmatch(text, start, end)
+        told = start in dictated or _is_led(text, place) or _PARTED.fullmatch(text, start, end)
         opened = _OPENED.search(text[:start][-16:])
         if place.certain and told and start >= done and (not opened or "|" in text[start:end]):
             written = f"{place.x:.12g}, {place.y:.12g}"

@@ -31,7 +31,7 @@ Record = dict[str, Any]
 """A sample: its prompt, the task and parameters of a task, the `expected` plan."""
 PLAIN_FORM = "{system}\n\n### Input\n{user}\n\n### Plan\n"
 """The prompt of a model without a chat template."""
-PROMPT_VERSION = 3
+PROMPT_VERSION = 4
 """Counts up with every change of the rendered text: predictions are not reused across it."""
 PROBE = "\x02probe\x03"
 TODAY = "26 Jul 2024"

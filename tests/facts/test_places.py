@@ -397,6 +397,8 @@ def test_a_unit_of_coordinates_holds_for_its_sentence() -> None:
     ("text", "told"),
     [
         ("mow E12 N48, 100 m", "mow [12, 48], 100 m"),
+        ("to one fifty zero, then to one fifty one hundred", "to [150, 0], then to [150, 100]"),
+        ("at sixty ten seventy five by forty", "at [60, 10] seventy five by forty"),
         ("be at easting 72, northing 36 by ten", "be at [72, 36] by ten"),
         ("x=-4, y=9 then (3, 4)", "[-4, 9] then (3, 4)"),
         ("go to x equals minus 4 and y equals 9", "go to [-4, 9]"),
@@ -505,7 +507,12 @@ def test_dictated_coordinates_are_those_of_one_place(text: str, place: tuple[int
 
 
 @pytest.mark.parametrize(
-    "text", ["turn to one hundred ninety", "at seventy minus twenty eight sectors"]
+    "text",
+    [
+        "turn to one hundred ninety",
+        "at seventy minus twenty eight sectors",
+        "at one hundred comma thirty two times",
+    ],
 )
 def test_words_that_can_be_split_in_several_ways_are_no_certain_place(text: str) -> None:
     assert not dictated_pairs(text)
