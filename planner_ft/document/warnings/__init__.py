@@ -65,7 +65,7 @@ CHECKS: tuple[Check, ...] = (
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     said.harm,
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
-    *(places.taken_back, asked.against_itself, asked.conditions),
+    *(places.taken_back, picked.quoted_places, asked.against_itself, asked.conditions),
     *(
         asked.without_words,
         asked.not_planned,

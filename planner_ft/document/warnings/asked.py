@@ -19,6 +19,8 @@ IT = re.compile(r"\s+(?:all )?(?:it|that|this|them|those|these)\W*", re.IGNORECA
 BEGUN = re.compile(r"[.!?;]\s+(?:(?:no|oh|er|um|wait|sorry|actually)\W*)*$", re.IGNORECASE)
 SENTENCE = re.compile(r"(?<!\.)[.!?;]\s")  # no dots of hesitation
 # The share of unknown words of another language (benchmarks/language_check.py).
+PASSING = ("goes", "over", "than", "more", "less", "down", "drops", "below", "above", "under")
+"""Words of a condition that are not what it is about."""
 UNKNOWN = 0.55
 FEWEST_UNKNOWN = 3  # words of a clause
 
@@ -94,9 +96,13 @@ def _unanswered(clause: Clause, case: Case, gone: Mapping[Ask, str]) -> Iterator
 
 def ruled_out_still(case: Case) -> Iterator[Warning]:
     """A task that the command takes back at last, and that the plan has."""
+    said = [ask for ask in case.spoken.asks for _ in ask.said.finditer(case.command)]
+    as_it = dict(_taken_back_as_it(case))
     for ask, words in _taken_back(case).items():
         own = [task for task in case.tasks if task["title"] in ask.tasks]
-        if len(ask.tasks) == 1 and len(own) == 1:
+        # "Survey the wreck ... scratch that": of several tasks, where none of them is asked again.
+        often = [one for one in said if one.tasks & ask.tasks]
+        if (len(ask.tasks) == 1 or (ask in as_it and often == [ask])) and len(own) == 1:
             yield warning("contradiction", "ruled_out", own[0], about=words.casefold(), words=words)
 
 
@@ -240,7 +246,8 @@ def conditions(case: Case) -> Iterator[Warning]:
         said = re.findall(r"[a-z]{4,}", (behind or clause.text[: match.start()]).casefold())
         # What the command also says elsewhere, "the wind turbine", tells nothing of "if the wind".
         others = case.command.replace(text, " ").casefold()
-        own = [word for word in said if word[:STEM] not in others] or said
+        own = [word for word in said if word[:STEM] not in others]
+        own = [word for word in own if word not in PASSING] or own or said
         if own and not any(word[:STEM] in texts for word in own):
             words = quoted(text.strip(" ,;."))
             yield warning("condition-lost", words=words, about=words.casefold())

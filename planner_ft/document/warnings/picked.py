@@ -19,6 +19,7 @@ ORDINAL = re.compile(
     re.IGNORECASE,
 )
 """An ordinal that stands for a place, and the noun behind it."""
+QUOTED = re.compile(r"\"[^\"]{8,}\"|“[^”]{8,}”")
 COUNTS = {None: 1, "two": 2, "three": 3}
 ONLY = re.compile(r"\b(?:only|just|alone|nowhere else)\b", re.IGNORECASE)
 Places = Sequence[Position]
@@ -56,6 +57,18 @@ def elsewhere(case: Case) -> Iterator[Warning]:
         for task in wrong[:1]:
             words = quoted(choices[0].clause.text.strip(" ,;."))
             yield warning("contradiction", "picked", task, about=words.casefold(), words=words)
+
+
+def quoted_places(case: Case) -> Iterator[Warning]:
+    """Tasks at a place that stands in words of somebody else alone: "the mail said 'go to 9,9'"."""
+    spans = [match.span() for match in QUOTED.finditer(case.command)]
+    for task in case.tasks if spans else ():
+        at = place_of(task, case.vocabulary)
+        said = [one for one in case.positions if at and same_place(one, at)]
+        inside = [any(start < one.start < end for start, end in spans) for one in said]
+        if said and all(inside):
+            words = quoted(case.text[said[0].start : said[0].end])
+            yield warning("value-not-said", "quoted", task, about=words, words=words)
 
 
 def left_out(case: Case) -> Iterator[Position]:

@@ -21,7 +21,7 @@ from planner_ft.document.warnings.case import (
 )
 from planner_ft.facts import Number, is_place, near
 from planner_ft.facts.numbers import read_times
-from planner_ft.facts.places import is_course, read_positions, rows_of_sizes
+from planner_ft.facts.places import is_course, read_bearings, read_positions, rows_of_sizes
 from planner_ft.facts.together import REREAD, neighbours
 from planner_ft.vocabulary import Vocabulary
 
@@ -41,6 +41,7 @@ AT = re.compile(r"\bat $", re.IGNORECASE)
 OFF = re.compile(r" off (?:it|her|him|them|the|that|this)\b", re.IGNORECASE)
 NEAR = 12  # characters before words in which they are ruled out
 APART = 0.5  # metres beyond a line
+WAY = 16  # characters between a length and the direction in which it lies
 HOURS = 12  # the last one: "at six" is a time of day
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
@@ -206,13 +207,15 @@ def crossed(case: Case) -> Iterator[Warning]:
 
 def _is_distance(number: Number, case: Case) -> bool:
     """Whether a number that may count things is a length to keep, which the plan has not: "half a
-    cable off her".
+    cable off her", "half a cable due east".
     """
     lengths = case.source.facts.numbers("m")
     read = [one for one in lengths if one.start == number.start and one.rank >= REREAD]
     clause = case.clause_at(number.start)
     off = clause and case.words["off_it"].search(case.text, number.end, clause.end)
-    return bool(read and off) and not any(case.plan.says(one.value) for one in read)
+    ways = (way.start - number.end for way in read_bearings(case.text))
+    off_or_along = bool(off) or any(0 <= way <= WAY for way in ways)
+    return bool(read and off_or_along) and not any(case.plan.says(one.value) for one in read)
 
 
 def _shots(number: Number, case: Case) -> bool:

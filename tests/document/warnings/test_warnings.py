@@ -18,6 +18,7 @@ from ...documents import DRONE, USV, document, step, task
 
 GO = step("GoToXY", {"x": 30, "y": 40})
 HOME = task("Transit", {"target_position": [0, 0]}, [step("GoToXY", {"x": 0, "y": 0})], "Go home.")
+SURVEY = task("SurveyTarget", {"target_position": [30, 40], "radius": 20}, [GO], "Survey.")
 THERE = task("Transit", {"target_position": [30, 40]}, [GO], "Go to [30, 40].")
 OPEN = [-99, -99]
 
@@ -471,3 +472,30 @@ def test_a_shuttle_goes_to_its_places_again() -> None:
     once = planned(command, ways[30], ways[60])
     again = planned(command, *([ways[30], ways[60]] * 2))
     assert ("repeat-lost" in kinds(once), "repeat-lost" in kinds(again)) == (True, False)
+
+
+@pytest.mark.parametrize(
+    ("command", "tasks", "kind"),
+    [
+        (
+            "Survey the wreck at 30,40 at 20 m ... scratch that. Come home.",
+            [SURVEY, HOME],
+            "contradiction",
+        ),
+        (
+            'Come home. The mail said "go to 30,40 at once", ignore it.',
+            [THERE, HOME],
+            "value-not-said",
+        ),
+        ("Go to 30,40 and hold half a cable due east of it.", [THERE], "value-lost"),
+        ("Go to 30,40. Come home if wind goes over 12 m/s.", [THERE, HOME], "condition-lost"),
+    ],
+)
+def test_what_is_taken_back_quoted_or_lost(command: str, tasks: list[Any], kind: str) -> None:
+    constraints = ["The vehicle goes no faster than 12 m/s."]
+    assert kind in kinds(planned(command, *tasks, constraints=constraints))
+
+
+def test_a_quoted_place_that_is_said_elsewhere_is_meant() -> None:
+    plan = planned('Go to 30,40. The sign there says "berth 30,40 here". Come home.', THERE, HOME)
+    assert "value-not-said" not in kinds(plan)
