@@ -14,6 +14,7 @@ MEASURED = [
     Path("data/mission/validation.jsonl"),
     Path("data/mission/test.jsonl"),
     Path("data/mission/challenge.jsonl"),
+    Path("eval/challenge/operators.jsonl"),
     *sorted(Path("eval/challenge").glob("mission*.jsonl")),
     *sorted(Path("eval/field").glob("*.jsonl")),
 ]
