@@ -214,9 +214,9 @@ def _words_beside(text: str, place: Position, named: list[Span]) -> str:
     behind = _BEHIND.match(text, place.end)
     ends = [end for start, end in named if behind and start == behind.end()]
     # "To [150, 50] there is a buoy at [100, 50]": what has a place of its own is not there.
-    starts = {one.start for one in written_positions(text)}
     own = _BESIDE.match(text, ends[0]) if ends else None
-    ends = ends if own is None or own.end() not in starts else []
+    placed = own and any(one.start == own.end() for one in written_positions(text))
+    ends = [] if placed else ends
     before = _words_before(text, place.start, named)
     return before or (text[behind.end() : ends[0]] if behind and ends else "")
 

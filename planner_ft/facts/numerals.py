@@ -139,9 +139,9 @@ class Row:
             yield from self._spoken(index)
         elif (tenths := self._tenths(index)) and self.unit(index + 1 + len(tenths))[0]:
             # "At point five knots", but "at the centre point five minutes".
-            parts = [float(f"0.{tenths}"), float(tenths)]
-            behind = index + 1 + len(tenths)
-            yield from ((one, behind) for one in parts[self._is_place(index - 1) :])
+            if self.word(index - 1) not in WORDS["before_point"]:
+                yield float(f"0.{tenths}"), index + 1 + len(tenths)
+            yield float(tenths), index + 1 + len(tenths)
 
     def half(self, index: int) -> Reading:
         """What "and a half", "and three quarters" add at `index`, and the index behind it."""
@@ -263,9 +263,6 @@ class Row:
     def _tenths(self, index: int) -> str:
         """The digits behind "point" at `index`, as figures."""
         return self._digits(index + 1) if self.word(index) in ("point", "decimal") else ""
-
-    def _is_place(self, index: int) -> bool:
-        return self.word(index) in WORDS["before_point"]
 
     def _splits(self, index: int) -> bool:
         """Whether one number can end before a token and another begin: "seventy / one hundred"."""

@@ -173,7 +173,7 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
     """The positions that numbers of a text can be, the plainest first."""
     whole = [Position(*pair, certain=True) for pair in dictated_pairs(text)]
     found, taken = dict.fromkeys(whole, WRITTEN), list(whole)
-    for first, second in pairs((one for one in numbers if one.stop), MOST_BETWEEN):
+    for first, second in pairs((one for one in numbers if _is_metric(text, one)), MOST_BETWEEN):
         start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)
         if between and not _CLOCK.fullmatch(text, start, second.stop):
@@ -207,6 +207,14 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
                 x, y = round(place.x * factor, 2), round(place.y * factor, 2)
                 found[place] = found[replace(place, x=x, y=y)] = found[place]
     return tuple(sorted(found, key=lambda place: found[place] >= REREAD))
+
+
+def _is_metric(text: str, number: Number) -> bool:
+    """Whether a number can be a coordinate: in metres or without a unit. "15s" is south, and what
+    stands behind "-160 second" comes second.
+    """
+    behind = text[number.stop : number.end].strip().lower() if number.stop else ""
+    return bool(number.stop) and (number.unit in (None, "m") or behind in ("s", "second"))
 
 
 def _share(one: Position, other: Position) -> bool:

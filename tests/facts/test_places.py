@@ -521,3 +521,8 @@ def test_words_that_can_be_split_in_several_ways_are_no_certain_place(text: str)
 def test_dictated_coordinates_are_no_other_numbers() -> None:
     said = read("Go round the buoy at one ten eighty fifty metres off.")
     assert {one.value for one in said.numbers("m")} == {50}
+
+
+def test_a_time_is_no_coordinate() -> None:
+    said = read("A 20,20 B 60,60, two minutes at each").positions
+    assert {(one.x, one.y) for one in said} == {(20, 20), (60, 60)}

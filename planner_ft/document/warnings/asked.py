@@ -20,7 +20,7 @@ BEGUN = re.compile(r"[.!?;]\s+(?:(?:no|oh|er|um|wait|sorry|actually)\W*)*$", re.
 SENTENCE = re.compile(r"(?<!\.)[.!?;]\s")  # no dots of hesitation
 # The share of unknown words of another language (benchmarks/language_check.py).
 PASSING = ("goes", "over", "than", "more", "less", "down", "drops", "below", "above", "under")
-"""Words of a condition that are not what it is about."""
+"""Words of a condition that do not say what it is about."""
 UNKNOWN = 0.55
 FEWEST_UNKNOWN = 3  # words of a clause
 
