@@ -11,6 +11,7 @@ from typing import Any
 
 from planner_ft.document.language import Language, language, pattern, read_clauses
 from planner_ft.facts import Position, Span
+from planner_ft.facts.geometry import CORNERS, rectangle
 from planner_ft.facts.places import read_positions, rows_of, written_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
@@ -132,9 +133,11 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
     ]
     written = written_positions(text)
     told, several = dict(_told_things(text, written, vocabulary)), dict[int, str]()
+    areas = set[int]()  # where the corners of areas begin: "the box (0, 0), (40, 0), ..."
     for row in rows_of(text, written):
         words = _words_before(text, row[0].start, things)
         several |= {place.start: words for place in row[1:] if words.endswith("s")}
+        areas |= {row[0].start} if _is_area(row) and not words.endswith("s") else set()
     for match in spoken.words["one_of_them"].finditer(text):
         sentence = text.rfind(". ", 0, match.start()) + 1
         before = [one for one in bare if sentence <= one[0] and one[1] <= match.start()]
@@ -147,8 +150,13 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
             words = next((text[start:end] for start, end in beside), "")
         if not stands(words, vocabulary):
             words = told.pop(place.start, "") or words or several.pop(place.start, "")
-        if words:
+        if words and place.start not in areas:
             yield words, place
+
+
+def _is_area(row: list[Position]) -> bool:
+    """Whether a row of positions is an area by its four corners, and no row of things."""
+    return len(row) == len(CORNERS) and rectangle([(at.x, at.y) for at in row]) is not None
 
 
 def _told_things(

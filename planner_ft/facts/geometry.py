@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 Point = tuple[float, float]
+Area = tuple[Point, float, float]
+"""Middle, width along x, length along y."""
 Corner = Literal["south-west", "south-east", "north-east", "north-west"]
 Axis = Literal["x", "y"]
 
@@ -67,6 +69,21 @@ def survey_square(
     step = -1 if clockwise else 1
     ring = (SQUARE[(first + step * index) % len(SQUARE)] for index in range(len(SQUARE)))
     return [point(center[0] + x * half_side, center[1] + y * half_side) for _name, x, y in ring]
+
+
+def rectangle(corners: Sequence[Point]) -> Area | None:
+    """The area of four corners with sides along the axes; None where they are no such."""
+    (west, *_, east), (south, *_, north) = (sorted(axis) for axis in zip(*corners, strict=True))
+    crossed = set(itertools.product({west, east}, {south, north}))
+    if not len(corners) == len(crossed) == 4 or set(corners) != crossed:
+        return None
+    return point((west + east) / 2, (south + north) / 2), tidy(east - west), tidy(north - south)
+
+
+def corners_of(middle: Sequence[float], width: float, length: float) -> list[Point]:
+    """The corners of an area."""
+    ways = itertools.product((-0.5, 0.5), repeat=2)
+    return [(middle[0] + east * width, middle[1] + north * length) for east, north in ways]
 
 
 def lane_count(extent: float, spacing: float) -> int | None:

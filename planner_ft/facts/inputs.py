@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from planner_ft.facts import places, reading
-from planner_ft.facts.geometry import CLOSE, Ground, Point, sector_counts, turned
+from planner_ft.facts.geometry import CLOSE, Area, Ground, Point, rectangle, sector_counts, turned
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import Position, read_positions, rows_of_sizes
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
@@ -161,6 +161,17 @@ class Input:
         middles = ((x, y) for x, y, _width, _length in reversed(known.areas))
         found = itertools.chain(self._corrected(), off, middles, known.away(off))
         return tuple(itertools.islice(dict.fromkeys(found), MOST_WORKED))
+
+    @functools.cached_property
+    def rectangles(self) -> tuple[Area, ...]:
+        """The areas that a command says by four corners in a row, and by no other sizes."""
+        text = self.facts.text
+        lengths = [one for one in read_numbers(text) if one.unit == "m"]
+        if self.is_task or rows_of_sizes(text) or len(lengths) > 1:
+            return ()
+        rows = places.rows_of(text, places.written_positions(text))
+        corners = ([(at.x, at.y) for at in row] for row in rows if len(row) == 4)
+        return tuple(filter(None, map(rectangle, corners)))
 
     def _corrected(self) -> Iterator[Point]:
         """Positions with one coordinate told anew behind them."""

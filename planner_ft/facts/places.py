@@ -26,7 +26,7 @@ _WRITTEN_PAIR = re.compile(
 )
 """Two numbers that are certainly coordinates, and no other values."""
 PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+)?")
-BESIDE = re.compile(r"[\s,;\])\[(]*(?:and|to|then)?[\s,;\])\[(]*")
+BESIDE = re.compile(r"[\s,;/\])\[(]*(?:and|to|then)?[\s,;/\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(
     rf"(?:[\s,;:/=]|(?<!\|)\|(?!\|)|comma|plus|and|by"

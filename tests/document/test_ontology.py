@@ -218,6 +218,12 @@ def test_things_beside_positions_are_no_places_of_the_water() -> None:
     assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8)]
 
 
+def test_the_corners_of_an_area_are_no_things_and_four_piles_are() -> None:
+    corners = "[0, 0], [40, 0], [40, 20] and [0, 20]"
+    assert not named_places(f"Chart the basin {corners}.", USV)
+    assert len(named_places(f"Go between the piles at {corners}.", USV)) == 4
+
+
 def test_numbered_and_sized_things_are_named_and_stations_of_something() -> None:
     command = (
         "Pile A at [1, 2], a pier with a width of 9 m at [3, 4], the pumping station at [5, 6],"

@@ -15,6 +15,7 @@ from typing import Any, ClassVar, NamedTuple, Self
 
 from planner_ft.decoding.constraints import patterns
 from planner_ft.decoding.constraints.patterns import literal, regex
+from planner_ft.facts.geometry import Area
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter, Skill, Task, Vocabulary, plans
 
@@ -114,6 +115,15 @@ class Values:
             pattern, beyond = patterns.number_range(low, high, whole=whole)
         barred = (*map(regex, beyond), *map(literal, map(written, without)))
         return grammar.terminal(f"{regex(pattern)}{none_of(barred)}")
+
+    @property
+    def areas(self) -> Sequence[Area]:
+        """The areas that can be meant where no sizes are said; none where any can."""
+        return ()
+
+    def middle(self, grammar: Grammar, without: Sequence[Sequence[float]] = ()) -> Symbol:
+        """The symbol of the middle of another area than `areas`, none of `without`."""
+        return self.position(grammar, without)
 
     def has_number(self, parameter: Parameter, value: float) -> bool:
         """Whether a parameter's number can be `value`."""

@@ -21,6 +21,8 @@ from planner_ft.decoding.constraints import grammar as lark
 from planner_ft.decoding.constraints.grammar import Grammar, Symbol, Values
 from planner_ft.decoding.constraints.patterns import literal, quoted, regex
 from planner_ft.facts import Input, corrections
+from planner_ft.facts.geometry import Area, corners_of
+from planner_ft.facts.places import written_positions
 from planner_ft.facts.words import WORDS
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary import Parameter
@@ -199,6 +201,18 @@ class GroundedValues(Values):
             places = itertools.product(*zip(*known, strict=True)) if crossed else known
         barred = set(map(tuple, without))
         return grammar.one_of(lark.written(place) for place in places if place not in barred)
+
+    @property
+    def areas(self) -> Sequence[Area]:
+        return self._source.rectangles if self._sure else ()
+
+    def middle(self, grammar: Grammar, without: Sequence[Sequence[float]] = ()) -> Symbol:
+        if not self.areas:
+            return self.position(grammar, without)
+        stated = ((at.x, at.y) for at in written_positions(self._facts.text))
+        corners = {corner for area in self.areas for corner in corners_of(*area)}
+        known = [self._vocabulary.home, self._vocabulary.unresolved, *stated]
+        return grammar.one_of(lark.written(at) for at in known if at not in {*corners, *without})
 
     def text(self, grammar: Grammar, without: Sequence[str] = ()) -> Symbol:
         if self._spans.too_long:

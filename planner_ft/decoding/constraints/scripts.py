@@ -24,6 +24,7 @@ from planner_ft.decoding.constraints import grammar as lark
 from planner_ft.decoding.constraints.grammar import Grammar, Options, Script, Slot, key
 from planner_ft.decoding.constraints.patterns import literal, regex
 from planner_ft.decoding.constraints.waypoints import Path, Waypoints
+from planner_ft.facts.inputs import SIDES
 from planner_ft.vocabulary import Parameter, Skill, Task
 from planner_ft.vocabulary.definition import Role
 from planner_ft.vocabulary.plans import MISSION_KEYS, STEP_KEYS, WORKING
@@ -71,7 +72,11 @@ class MissionScript(Script):
 
     def options(self, slot: Slot, barred: Sequence[Any] | None = None) -> Options:
         if self.logical and slot.parameter.name == slot.owner.position_parameter:
-            return [(symbol, slot.context)] if (symbol := self._place(slot)) else []
+            return self._places(slot)
+        for side in slot.context if slot.parameter.name in SIDES else ():
+            name, _is, size = side.partition("=")
+            if name == slot.parameter.name:
+                return [(literal(size), slot.context)]
         if self._tells(slot.owner, slot.parameter):
             barred = [target for target in self.progress.searched if target]
         if slot.parameter.type == "id":
@@ -88,6 +93,18 @@ class MissionScript(Script):
         search = self.logical and owner.title == self.vocabulary.locate
         return search and parameter == target_parameter(owner)
 
+    def _places(self, slot: Slot) -> Options:
+        """Where a task is; for an area whose corners are said its middle, with its sides behind."""
+        areas = self.values.areas if slot.owner.pattern == "lawnmower" else ()
+        found: Options = []
+        for middle, *sizes in areas:
+            sides = (
+                f"{name}={lark.written(size)}" for name, size in zip(SIDES, sizes, strict=True)
+            )
+            found.append((literal(lark.written(middle)), slot.context | {*sides}))
+        others = self._place(slot)
+        return [*found, (others, slot.context)] if others else found
+
     def _place(self, slot: Slot) -> str | None:
         progress, unresolved, at = self.progress, self.vocabulary.unresolved, self.progress.here
         unknown = not slot.context and (bool(progress.searched) or slot.owner.docks)
@@ -100,7 +117,8 @@ class MissionScript(Script):
         same = at == unresolved and len(progress.searched) > 1
         if slot.owner.title == self.vocabulary.transit and at and not (same or progress.moved):
             without.append(at)
-        return self.values.position(slot.grammar, without)
+        area = slot.owner.pattern == "lawnmower"
+        return (self.values.middle if area else self.values.position)(slot.grammar, without)
 
 
 LONGEST_WORKING = 600

@@ -17,6 +17,7 @@ from planner_ft.document.language import Clause, language, read_clauses
 from planner_ft.document.track import Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.geographic import without_geographic
+from planner_ft.facts.geometry import corners_of
 from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import read_positions, rows_of, rows_of_sizes, written_positions
@@ -306,10 +307,7 @@ def _area_corners(values: Entry) -> list[tuple[float, float]]:
     """The corners of the area of a task that has sides and a middle."""
     middle = next(filter(is_place, values.values()), None)
     sides = [float(values[name]) for name in SIDES if is_number(values.get(name))]
-    if middle is None or len(sides) < len(SIDES):
-        return []
-    ways = itertools.product((-0.5, 0.5), repeat=2)
-    return [(middle[0] + east * sides[0], middle[1] + north * sides[1]) for east, north in ways]
+    return [] if middle is None or len(sides) < len(SIDES) else corners_of(middle, *sides)
 
 
 def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:

@@ -51,6 +51,8 @@ def unsaid(case: Case) -> Iterator[Warning]:
             if source["kind"] == "model":
                 if evidence.given is False:
                     yield warning("value-not-said", "unsaid", **about)
+            elif _is_rectangle(task, case):
+                continue
             elif is_number(value) and _is_coordinate(evidence, said, case.positions):
                 yield warning("value-not-said", "coordinate", **about)
             elif parameter.unit == "s" and not timed and _has_no_unit(evidence, said):
@@ -198,9 +200,16 @@ def worked_out(case: Case) -> Iterator[Warning]:
         for name, source in task.get("sources", {}).items():
             value = task["parameters"].get(name)
             known = not is_place(value) or "spans" in source or value == unknown
-            if source["kind"] == "derived" and not known:
+            if source["kind"] == "derived" and not known and not _is_rectangle(task, case):
                 about = {"parameter": name, "name": name, "value": value}
                 yield warning("value-not-said", "worked_out", task, **about)
+
+
+def _is_rectangle(task: Entry, case: Case) -> bool:
+    """Whether the area of a task is one that the command says by its corners."""
+    middle = next(filter(is_place, task["parameters"].values()), None)
+    own = middle and (tuple(middle), *(task["parameters"].get(name) for name in SIZE))
+    return own in case.source.rectangles
 
 
 def unsaid_skills(case: Case) -> Iterator[Warning]:

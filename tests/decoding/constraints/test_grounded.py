@@ -163,6 +163,29 @@ def test_places_lie_a_stated_way_off(embedded: Any) -> None:
     assert admitted(embedded, ("Transit", {"target_position": [0, -40]}), prompt=prompt)
 
 
+BOX = "Chart the box 20,20 / 80,20 / 80,60 / 20,60, lanes 5 m apart."
+
+
+@pytest.mark.parametrize(
+    ("command", "center", "sides", "possible"),
+    [
+        (BOX, [50, 40], (60, 40), True),
+        (BOX, [50, 40], (40, 60), False),
+        (BOX, [50, 40], (60, 5), False),
+        (BOX, [20, 20], (80, 20), False),
+        (BOX, [80, 60], (20, 20), False),
+        ("Chart 10 by 5 m at 20,20, 80,20, 80,60 and 20,60.", [20, 20], (10, 5), True),
+        (f"Stay in {BOX[10:41]}. Chart at 30,30, width 8, length 12.", [30, 30], (8, 12), True),
+        ("Chart the box 20,20 / 80,25 / 80,60 / 20,60.", [20, 20], (80, 20), True),
+    ],
+)
+def test_an_area_of_four_corners_is_written_whole(
+    embedded: Any, command: str, center: list[float], sides: tuple[float, float], possible: bool
+) -> None:
+    given = {"center": center, "width": sides[0], "length": sides[1]}
+    assert admitted(embedded, ("BathymetryGridSurvey", given), prompt=command) is possible
+
+
 def test_the_logic_of_the_plan_holds_as_well(embedded: Any) -> None:
     go: tuple[str, dict[str, Any]] = ("Transit", {"target_position": [120, -35]})
     assert admitted(

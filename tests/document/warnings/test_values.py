@@ -162,6 +162,19 @@ def test_a_coordinate_is_no_measure(command: str, told: int) -> None:
     assert sum("width" in one or "length" in one for one in said) == told
 
 
+def test_an_area_that_is_said_by_its_corners_is_said() -> None:
+    command = "Map the box 20,20 / 100,20 / 100,80 / 20,80, 10 m lines{}."
+    values = {"center": [60, 50], "width": 80, "length": 60, "spacing": 10}
+    for own, lost, count in (
+        (values, "", 0),
+        (values, ", hold an hour", 0),
+        ({"width": 20}, "", 2),
+    ):
+        grid = task("BathymetryGridSurvey", values | own, None, "Map it.")
+        plan = document([grid], command=command.format(lost))
+        assert len(texts(plan, "value-not-said")) == count
+
+
 def test_a_place_that_follows_is_named_where_a_place_is_only_told_of() -> None:
     near = task("Transit", {"target_position": [30, 50]}, [step("GoToXY", {"x": 30, "y": 50})])
     command = "Go to [30, 40], then 10 m further north. A boom lies from 90,0 to 90,20."
