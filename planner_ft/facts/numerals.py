@@ -137,11 +137,13 @@ class Row:
                 yield 1.0, index + 1
         elif word in SMALL or word in SCALES:
             yield from self._spoken(index)
-        elif (tenths := self._tenths(index)) and self.unit(index + 1 + len(tenths))[0]:
+        elif (tenths := self._tenths(index)) and (unit := self.unit(index + 1 + len(tenths))[0]):
             # "At point five knots", but "at the centre point five minutes".
-            if self.word(index - 1) not in WORDS["before_point"]:
+            decimal = self.word(index - 1) not in WORDS["before_point"]
+            if decimal:
                 yield float(f"0.{tenths}"), index + 1 + len(tenths)
-            yield float(tenths), index + 1 + len(tenths)
+            if not (decimal and unit.base == "m/s"):
+                yield float(tenths), index + 1 + len(tenths)
 
     def half(self, index: int) -> Reading:
         """What "and a half", "and three quarters" add at `index`, and the index behind it."""

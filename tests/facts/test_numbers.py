@@ -151,6 +151,9 @@ VALUES = """
     at 4 m and a half hour of film | s | 1800
     at 4 m and a half hour of film | m | 4 4.5
     half a minute | s | 30
+    at point five knots | m/s | 0.257222
+    to the point five knots | m/s | 2.572222
+    for point five minutes | s | 30 300
     hold minute | s | 60
     for a minute and half a metre | s | 60
     for a minute and half a metre | m | 0.5
