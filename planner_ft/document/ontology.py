@@ -239,9 +239,10 @@ def _words_before(text: str, place: int, named: list[Span]) -> str:
 
 def is_thing(words: str, vocabulary: Vocabulary) -> bool:
     """Whether a noun phrase names a thing in the water, and not a place of it: its last word, or
-    the one before "of", tells. A mooring buoy is a thing, the middle of the channel is a place.
+    the one before "of", tells. A mooring buoy and a lock gate are things, the middle of the channel
+    is a place.
     """
-    return not _ends_with("water", words, vocabulary)
+    return stands(words, vocabulary) or not _ends_with("water", words, vocabulary)
 
 
 def stands(words: str, vocabulary: Vocabulary) -> bool:

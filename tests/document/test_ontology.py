@@ -212,10 +212,11 @@ def test_a_clause_that_only_tells_of_something_asks_for_nothing() -> None:
 def test_things_beside_positions_are_no_places_of_the_water() -> None:
     command = (
         "Go to the mast at [1, 2], the waypoint at [3, 4], the middle of the channel at [5, 6],"
-        " the mooring buoy at [7, 8]. Do the same at [9, 10]."
+        " the mooring buoy at [7, 8], the lock gate at [5, 8], the gate at [4, 4]. Do the same at"
+        " [9, 10]."
     )
     found = [(words, place.x, place.y) for words, place in named_places(command, USV)]
-    assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8)]
+    assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8), ("the lock gate", 5, 8)]
 
 
 def test_the_corners_of_an_area_are_no_things_and_four_piles_are() -> None:

@@ -34,7 +34,7 @@ AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
-NO = re.compile(r"\W*\bno\b\W*", re.IGNORECASE)
+NO = re.compile(r"\W*\bno\b(?!\.)\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
 CORRECTED = 30  # characters between a value and its correction
 AT = re.compile(r"\bat $", re.IGNORECASE)
@@ -144,8 +144,9 @@ def _instead(case: Case) -> list[Number]:
 
 def bare_numbers(case: Case) -> Iterator[Warning]:
     """Numbers without a unit that are values all the same: below 0, behind the name of a parameter
-    ("radius 15"), in a row of sizes ("20x20x5"), in place of an earlier value, or at the end of a
-    clause ("give it five", "at 35"); and the last one that counts a parameter ("12 sectors").
+    ("radius 15"), in a row of sizes ("20x20x5"), before a side ("80 long"), in place of an earlier
+    value ("4, no, 14"), or at the end of a clause ("give it five", "at 35"); and the last one that
+    counts a parameter ("12 sectors").
     """
     plain = [one for one in case.numbers if one.unit is None and case.wants(one.start)]
     counted = {}
@@ -154,6 +155,11 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
             counted[match[1].casefold()] = number
     last_counted = list(counted.values())
     apart = {one.start for row in _sizes(case) for one in case.plan.missing_sizes(row)}
+    behind_no = {
+        two.start
+        for one, two in itertools.pairwise(case.numbers)
+        if NO.fullmatch(case.text, one.end, two.start)
+    }
     for number in plain:
         clause = case.clause_at(number.start)
         inside = any(place.start <= number.start < place.end for place in case.positions)
@@ -167,7 +173,8 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         instead = clause and replacing.match(clause.text.strip(" ,"))
         last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
         behind = _ends_with(replacing, before) or number in last_counted
-        behind = behind or _shots(number, case)
+        behind = behind or _shots(number, case) or number.start in behind_no
+        behind = behind or case.words["extent"].match(case.text[number.end :].lstrip()) is not None
         if last and number.value >= 2:
             behind = behind or _ends_with(case.words["measured"], before)
             behind = behind or (number.value > HOURS and AT.search(before) is not None)

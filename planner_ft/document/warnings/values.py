@@ -20,7 +20,7 @@ from planner_ft.facts import (
 )
 from planner_ft.facts.inputs import read_input
 from planner_ft.facts.numbers import read_numbers
-from planner_ft.facts.words import edit_distance, unknown_words, words
+from planner_ft.facts.words import edit_distance, missing_words, unknown_words, words
 from planner_ft.planning.shapes import SIZE, SPACING, pass_ends, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
@@ -75,16 +75,19 @@ def said_once(case: Case) -> Iterator[Warning]:
 
 
 def unsaid_limits(case: Case) -> Iterator[Warning]:
-    """Limits with a number that the command does not say, and that nothing be recorded where no
-    words of it rule anything out.
+    """Limits with a number or a thing that the command does not say, and that nothing be recorded
+    where no words of it rule anything out.
     """
     ruled_out = [case.words["exclusion"], case.words["limit"]]
     ruled_out += [data.said for data in case.spoken.data if data.ruled_out]
     none = not any(words.search(case.command) for words in ruled_out)
-    said = [number.value for number in case.numbers]
+    spoken, said = case.source.facts.text, [number.value for number in case.numbers]
     for limit in case.limits:
         own = [value for value in limit["values"].values() if is_number(value)]
         unsaid = any(not any(near(value, one) for one in said) for value in own)
+        thing = LONGER.findall(str(limit["values"].get("object", "")).split(" at [")[0])
+        unknown = [one for one in thing if missing_words(spoken, one, misspelt=True)]
+        unsaid = unsaid or (bool(thing) and unknown == thing)
         if unsaid or (limit["kind"] == "no_recording" and none):
             text = limit["text"].rstrip(".")
             yield warning("value-not-said", "limit", about=text.casefold(), limit=text)

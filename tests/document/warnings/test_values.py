@@ -110,6 +110,8 @@ def test_a_long_text_that_nobody_said_is_cut_to_60_characters() -> None:
         ("Go there and record nothing.", "Nothing is recorded.", 0),
         ("Go there, never over 4 knots.", "The vehicle goes no faster than 2.06 m/s.", 0),
         ("Go there, never over 4 knots.", "The vehicle goes no faster than 5 m/s.", 1),
+        ("Stay 9 m off the dredgr.", "The vehicle stays at least 9 m from the dredger.", 0),
+        ("Stay 9 m off the rig.", "The vehicle stays at least 9 m from the far keel.", 1),
     ],
 )
 def test_a_limit_is_one_of_the_command(command: str, limit: str, count: int) -> None:
