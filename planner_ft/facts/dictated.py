@@ -1,9 +1,11 @@
-"""Positions as speech recognisers write them: "at one ten minus fifty" is [110, -50]."""
+"""Positions as speech recognisers write them: "at one ten minus fifty" is [110, -50], "ten comma
+fifty thirty comma fifty" are two.
+"""
 
 import functools
+import itertools
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 
 from planner_ft.facts.numbers import read_all, read_rows
 from planner_ft.facts.together import Number
@@ -11,9 +13,14 @@ from planner_ft.facts.words import SCALES, SMALL, WORDS
 
 SIGNS = ("minus", "negative", "plus", "comma")
 BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them belongs to
-MOST_WORDS = 12  # words of numbers in a row that are looked at
-_AT = re.compile(r"\b(?:at|to|near|around|from|on|position)\s+(?:(?:plus|uh|er)\s+)?$", re.I)
+MOST_WORDS, LONGEST_ROW = 12, 60
+"""Words of one place, and of several in a row, that are looked at."""
+_AT = re.compile(
+    r"\b(?:at|to|near|around|from|between|on|position)\s+(?:(?:plus|uh|er)\s+)?$", re.I
+)
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
+_COMMA = re.compile(r"\s+comma\s+")
+_BESIDE = re.compile(r"\s+(?:and|then|and then|to)\s+")
 _BY = re.compile(r"\s+by\s")
 _TIMES = re.compile(r"\s+times\b")
 _SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)
@@ -28,25 +35,53 @@ def dictated_pairs(text: str) -> tuple[Pair, ...]:
     """
     found: list[Pair] = []
     for start, end in _runs(text):
-        if not _AT.search(text, max(0, start - 24), start):
-            continue
         starts = dict[int, list[Number]]()
         for number in read_all(text):
             if start <= number.start < number.stop <= end:
                 starts.setdefault(number.start, []).append(number)
+        commas = [match.span() for match in _COMMA.finditer(text, start, end)]
+        beside = bool(found) and _BESIDE.fullmatch(text, found[-1][3], start)
+        if len(commas) > 1 or (commas and beside):
+            row = _row(text, starts, [start, *itertools.chain(*commas), end])
+            found += row
+            if row or len(commas) > 1:
+                continue
+        is_place = len(text[start:end].split()) <= MOST_WORDS
+        if not is_place or not (beside or _AT.search(text, max(0, start - 24), start)):
+            continue
         paths = list(_paths(text, starts, start, end))
-        counted = any(path[-1].counts for path in paths) or _TIMES.match(text, end) is not None
+        times = _TIMES.match(text, end) is not None
+        counted = times or any(path[-1].counts for path in paths)
         measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
         more = measured or counted
         if not more and any(len(path) == 1 for path in paths):
             continue  # "turn to one hundred ninety"
-        sizes = (2, 3) if counted and not measured else (2 + more,)
+        sizes = (2, 3) if counted and not (measured or times) else (2 + more,)
         whole = [path for path in paths if len(path) in sizes]
         for plain in (_has_no_lone_digit, *(() if counted else (_is_even, _binds))):
             whole = [path for path in whole if plain(text, path)] or whole
         pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
         found += pairs if len(pairs) == 1 else ()
     return tuple(found)
+
+
+def _row(text: str, starts: dict[int, list[Number]], bounds: list[int]) -> list[Pair]:
+    """The coordinates of a row with a comma in each; none where their words can be said in several
+    ways. `bounds` are start and end of the words between the commas.
+    """
+    numbers = list[Number]()
+    parts = list(zip(bounds[::2], bounds[1::2], strict=True))
+    for place, (start, end) in enumerate(parts):
+        count = 2 if 0 < place < len(parts) - 1 else 1
+        whole = [path for path in _paths(text, starts, start, end, 2) if len(path) == count]
+        for plain in (_has_no_lone_digit, _binds):
+            whole = [path for path in whole if plain(text, path)] or whole
+        ends = place < len(parts) - 1 or not (_TIMES.match(text, end) or _BY.match(text, end))
+        if len(whole) != 1 or not ends or any(one.unit or one.counts for one in whole[0]):
+            return []
+        numbers += whole[0]
+    two = zip(numbers[::2], numbers[1::2], strict=True)
+    return [(one.said, other.said, one.start, other.stop) for one, other in two]
 
 
 def _runs(text: str) -> Iterator[tuple[int, int]]:
@@ -59,7 +94,7 @@ def _runs(text: str) -> Iterator[tuple[int, int]]:
             continue
         if word in WORDS["behind_one"] and len(row) > 2 and text[slice(*row[-1])].lower() == "one":
             row.pop()  # "two piers: one at forty comma sixty one at ninety comma ten"
-        if 1 < len(row) <= MOST_WORDS:
+        if 1 < len(row) <= LONGEST_ROW:
             yield row[0][0], row[-1][1]
         row = []
 
@@ -76,7 +111,7 @@ def _binds(text: str, path: list[Number]) -> bool:
 
 def _gaps(text: str, path: list[Number]) -> Iterator[tuple[float, float, int]]:
     """The words on both sides of the blanks between numbers, and how many the first one has."""
-    for one, two in pairwise(path):
+    for one, two in itertools.pairwise(path):
         if text[one.stop : two.start].isspace():
             words, behind = text[one.start : one.stop].lower().split(), text[two.start :].lower()
             yield SMALL.get(words[-1], -1), SMALL.get(behind.split()[0], -1), len(words)

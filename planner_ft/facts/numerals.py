@@ -225,7 +225,8 @@ class Row:
             more = tens >= 20 and 0 < ones < 10
             yield 100 * first + tens + more * ones, index + 2 + more
             behind = self.word(index + 3)
-            if more and (SMALL.get(behind, 0) >= 10 or behind in SCALES):  # "one fifty / one fifty"
+            # "One fifty / one fifty", "one twenty / four times".
+            if more and (SMALL.get(behind, 0) >= 10 or behind in SCALES or behind == "times"):
                 yield 100 * first + tens, index + 2
 
     def _in_words(self, start: int) -> Iterator[Reading]:

@@ -497,6 +497,9 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("to six five comma two five ten minutes", (65, 25)),
         ("centred at one twenty sixty lanes every five metres", (120, 60)),
         ("two piers: one at forty comma sixty one at the end", (40, 60)),
+        ("at one hundred comma thirty two times", (100, 30)),
+        ("to fifty comma one twenty four times", (50, 120)),
+        ("at minus fifty comma seventy one full circle", (-50, 70)),
     ],
 )
 def test_dictated_coordinates_are_those_of_one_place(text: str, place: tuple[int, int]) -> None:
@@ -511,11 +514,20 @@ def test_dictated_coordinates_are_those_of_one_place(text: str, place: tuple[int
     [
         "turn to one hundred ninety",
         "at seventy minus twenty eight sectors",
-        "at one hundred comma thirty two times",
+        "at ten comma twenty times",
+        "ten comma five thirty comma twenty metres",
     ],
 )
 def test_words_that_can_be_split_in_several_ways_are_no_certain_place(text: str) -> None:
     assert not dictated_pairs(text)
+
+
+def test_rows_of_dictated_coordinates_are_places() -> None:
+    said = "each ten comma fifty minus thirty comma one twenty fifty comma fifty and five comma ten"
+    places = [(10, 50), (-30, 120), (50, 50), (5, 10)]
+    assert [pair[:2] for pair in dictated_pairs(said)] == places
+    assert with_brackets(said) == "each [10, 50] [-30, 120] [50, 50] and [5, 10]"
+    assert {(one.x, one.y) for one in read_positions(said)} == {*places}
 
 
 def test_dictated_coordinates_are_no_other_numbers() -> None:
