@@ -2,15 +2,18 @@
 
 They are told from local positions ("40 east, 25 north", in metres) by a degree sign with minutes or
 a hemisphere, the words latitude and longitude, hemisphere letters at two numbers with decimals (at
-one: two decimals), or four decimals and more, and stand in pairs unless they have minutes.
+one: two decimals), or four decimals and more, and stand in pairs unless they have minutes. UTM
+coordinates are some too: a zone, six digits of easting and seven of northing.
 """
 
 import functools
 import itertools
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from planner_ft.facts.numbers import read_numbers
+from planner_ft.support.geodesy import from_utm
 
 DIGITS_OF_DEGREES = 4  # decimals from which a bare number is rather degrees than metres
 BLANK = "|"  # stands in place of what was read already
@@ -34,6 +37,13 @@ _COORDINATE = re.compile(
 they are spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07-02N", "48 07 02 N".
 """
 _DICTATED = re.compile(r"[a-z] (?:(?:decimal|point) [a-z]|degrees? [a-z])", re.IGNORECASE)
+_UTM = re.compile(
+    r"(?:\bUTM\b\W{0,3})?(?:\bzone\s)?\b(?P<zone>[1-9]|[1-5]\d|60)\s?(?P<band>[C-HJ-NP-X])?\b"
+    r"\W{1,3}(?:(?:easting|E|x)\W{0,3})?(?P<easting>\d{6}(?:\.\d+)?)(?:\s?m?E\b|\s?m\b)?"
+    r"\W{1,3}(?:(?:and )?(?:northing|N|y)\W{0,3})?(?P<northing>\d{7}(?:\.\d+)?)(?:\s?m?N\b|\s?m\b)?",
+    re.IGNORECASE,
+)
+"""A letter is a band of latitude, from N on in the north; S is the southern half."""
 _BETWEEN_COORDINATES = re.compile(r"[\s,;/]*(?:and|by)?[\s,;/]*")
 
 
@@ -108,7 +118,18 @@ def _read(text: str) -> tuple[Geographic, ...]:
             both = (second, first) if turned else (first, second)
             result.append(Geographic(*both, one.start(), parts[-1].end()))
         skip = bool(paired) and not skip
-    return tuple(result)
+    utm = list(_read_utm(text))
+    others = (
+        one for one in result if all(one.end <= at.start or at.end <= one.start for at in utm)
+    )
+    return tuple(sorted([*utm, *others], key=lambda one: one.start))
+
+
+def _read_utm(text: str) -> Iterator[Geographic]:
+    for match in _UTM.finditer(text):
+        south = (match["band"] or "N").upper() in "CDEFGHJKLMS"
+        metres = float(match["easting"]), float(match["northing"])
+        yield Geographic(*from_utm(int(match["zone"]), *metres, south=south), *match.span())
 
 
 def lone_coordinates(text: str) -> list[tuple[int, int]]:

@@ -67,6 +67,14 @@ class Origin:
         return distance * math.sin(angle), distance * math.cos(angle)
 
 
+def from_utm(zone: int, easting: float, northing: float, *, south: bool) -> tuple[float, float]:
+    """(latitude, longitude) in degrees of UTM coordinates in metres on WGS 84."""
+    from pyproj import Proj
+
+    longitude, latitude = Proj(proj="utm", zone=zone, south=south)(easting, northing, inverse=True)
+    return float(latitude), float(longitude)
+
+
 def parse_origin(text: str) -> Origin:
     """Read "LAT,LON" in decimal degrees. Raises PlannerError that says what was expected."""
     try:

@@ -9,7 +9,7 @@ import pytest
 
 from planner_ft.facts import WAYPOINT, read
 from planner_ft.facts.dictated import dictated_pairs
-from planner_ft.facts.geographic import lone_coordinates
+from planner_ft.facts.geographic import lone_coordinates, read_geographic, without_geographic
 from planner_ft.facts.places import read_positions, rows_of, with_brackets, written_positions
 
 
@@ -474,6 +474,22 @@ def test_three_decimals_with_a_side_are_degrees() -> None:
     (place,) = read("go to 43.102 south 147.203 east and hold").geographic
     assert (place.latitude, place.longitude) == (-43.102, 147.203)
     assert read("go 43.10 south 147.20 east of it").geographic == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "latitude", "longitude"),
+    [
+        ("in UTM, zone 32U: easting 571240, northing 6020310. Go there", 54.3257, 10.0954),
+        ("UTM zone 32, E 573210 N 6021100. Go there", 54.3325, 10.1259),
+        ("starts at 32V 581200 6398400.", 57.7204, 10.3632),
+        ("to 33S 500000 6250000", -33.8904, 15.0),
+    ],
+)
+def test_utm_coordinates_are_geographic(text: str, latitude: float, longitude: float) -> None:
+    (place,) = read_geographic(text)
+    assert place.latitude == pytest.approx(latitude, abs=1e-4)
+    assert place.longitude == pytest.approx(longitude, abs=1e-4)
+    assert not read_positions(without_geographic(text))
 
 
 def test_dictated_metres_are_not_geographic() -> None:
