@@ -6,6 +6,7 @@ import functools
 import itertools
 import re
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from planner_ft.facts.numbers import read_all, read_rows
 from planner_ft.facts.together import Number
@@ -28,60 +29,98 @@ _SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)
 Pair = tuple[float, float, int, int]  # x, y, start, end
 
 
+class Run(NamedTuple):
+    """A row of words of numbers: the numbers by their start, the spans between its commas, and
+    whether it is more than one number.
+    """
+
+    start: int
+    end: int
+    numbers: dict[int, list[Number]]
+    parts: tuple[tuple[int, int], ...]
+    is_no_number: bool
+
+
 @functools.lru_cache(maxsize=4096)
 def dictated_pairs(text: str) -> tuple[Pair, ...]:
-    """The coordinates behind "at" or "to" whose words can be said in one way as two numbers, or as
-    two and a third one with a unit, of a size or a count: "at one ten eighty fifty metres off".
+    """The coordinates whose words can be said in one way: behind "at" or "to" two numbers, or two
+    and a third one with a unit, of a size or a count ("at one ten eighty fifty metres off"), and
+    those of a row ("twenty ten then forty ten", "ten comma fifty thirty comma fifty").
     """
     found: list[Pair] = []
-    for start, end in _runs(text):
-        starts = dict[int, list[Number]]()
-        for number in read_all(text):
-            if start <= number.start < number.stop <= end:
-                starts.setdefault(number.start, []).append(number)
-        commas = [match.span() for match in _COMMA.finditer(text, start, end)]
-        beside = bool(found) and _BESIDE.fullmatch(text, found[-1][3], start)
-        if len(commas) > 1 or (commas and beside):
-            row = _row(text, starts, [start, *itertools.chain(*commas), end])
-            found += row
-            if row or len(commas) > 1:
-                continue
-        is_place = len(text[start:end].split()) <= MOST_WORDS
-        if not is_place or not (beside or _AT.search(text, max(0, start - 24), start)):
-            continue
-        paths = list(_paths(text, starts, start, end))
-        times = _TIMES.match(text, end) is not None
-        counted = times or any(path[-1].counts for path in paths)
-        measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
-        more = measured or counted
-        if not more and any(len(path) == 1 for path in paths):
-            continue  # "turn to one hundred ninety"
-        sizes = (2, 3) if counted and not (measured or times) else (2 + more,)
-        whole = [path for path in paths if len(path) in sizes]
-        for plain in (_has_no_lone_digit, *(() if counted else (_is_even, _binds))):
-            whole = [path for path in whole if plain(text, path)] or whole
-        pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
-        found += pairs if len(pairs) == 1 else ()
+    for group in _groups(text):
+        # "One hundred thirty" can be one number or two; in "ten fifty and one hundred thirty" two.
+        sure = len(group) > 1 and any(run.is_no_number for run in group)
+        for run in group:
+            row = _row(text, run) if sure or len(run.parts) > 2 else []
+            follows = bool(found) and _BESIDE.fullmatch(text, found[-1][3], run.start)
+            at = follows or _AT.search(text, max(0, run.start - 24), run.start)
+            found += row or (_place(text, run) if at and len(run.parts) < 3 else [])
     return tuple(found)
 
 
-def _row(text: str, starts: dict[int, list[Number]], bounds: list[int]) -> list[Pair]:
-    """The coordinates of a row with a comma in each; none where their words can be said in several
-    ways. `bounds` are start and end of the words between the commas.
+def _place(text: str, run: Run) -> list[Pair]:
+    """The coordinates of a row of words, and a number behind them where something measures or
+    counts; none where they can be said in several ways.
+    """
+    start, end = run.start, run.end
+    if len(text[start:end].split()) > MOST_WORDS:
+        return []
+    paths = list(_paths(text, run.numbers, start, end))
+    times = _TIMES.match(text, end) is not None
+    counted = times or any(path[-1].counts for path in paths)
+    measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
+    more = measured or counted
+    if not more and any(len(path) == 1 for path in paths):
+        return []  # "turn to one hundred ninety"
+    sizes = (2, 3) if counted and not (measured or times) else (2 + more,)
+    whole = [path for path in paths if len(path) in sizes]
+    for plain in (_has_no_lone_digit, *(() if counted else (_is_even, _binds))):
+        whole = [path for path in whole if plain(text, path)] or whole
+    pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
+    return list(pairs) if len(pairs) == 1 else []
+
+
+def _row(text: str, run: Run) -> list[Pair]:
+    """The coordinates of a row, with a comma in each or with none; none where their words can be
+    said in several ways.
     """
     numbers = list[Number]()
-    parts = list(zip(bounds[::2], bounds[1::2], strict=True))
-    for place, (start, end) in enumerate(parts):
-        count = 2 if 0 < place < len(parts) - 1 else 1
-        whole = [path for path in _paths(text, starts, start, end, 2) if len(path) == count]
+    bare = len(run.parts) == 1
+    if _TIMES.match(text, run.end) or _BY.match(text, run.end):
+        return []
+    for place, (start, end) in enumerate(run.parts):
+        inner = 0 < place < len(run.parts) - 1
+        counts = (2, 4, 6, 8) if bare else (2,) if inner else (1,)
+        paths = _paths(text, run.numbers, start, end, counts[-1])
+        whole = [path for path in paths if len(path) in counts]
         for plain in (_has_no_lone_digit, _binds):
-            whole = [path for path in whole if plain(text, path)] or whole
-        ends = place < len(parts) - 1 or not (_TIMES.match(text, end) or _BY.match(text, end))
-        if len(whole) != 1 or not ends or any(one.unit or one.counts for one in whole[0]):
+            kept = [path for path in whole if plain(text, path)]
+            whole = kept if kept or bare else whole
+        if len(whole) != 1 or any(one.unit or one.counts for one in whole[0]):
             return []
         numbers += whole[0]
     two = zip(numbers[::2], numbers[1::2], strict=True)
     return [(one.said, other.said, one.start, other.stop) for one, other in two]
+
+
+def _groups(text: str) -> Iterator[list[Run]]:
+    """The rows of words of numbers, those with "and" or "then" between them together."""
+    group = list[Run]()
+    for start, end in _runs(text):
+        numbers = dict[int, list[Number]]()
+        for number in read_all(text):
+            if start <= number.start < number.stop <= end:
+                numbers.setdefault(number.start, []).append(number)
+        bounds = [start, *itertools.chain(*map(re.Match.span, _COMMA.finditer(text, start, end)))]
+        parts = tuple(zip(bounds[::2], [*bounds[1::2], end], strict=True))
+        alone = any(one.stop == end for one in numbers.get(start, ()))
+        if group and not _BESIDE.fullmatch(text, group[-1].end, start):
+            yield group
+            group = []
+        group.append(Run(start, end, numbers, parts, is_no_number=not alone))
+    if group:
+        yield group
 
 
 def _runs(text: str) -> Iterator[tuple[int, int]]:
@@ -105,8 +144,13 @@ def _has_no_lone_digit(text: str, path: list[Number]) -> bool:
 
 
 def _binds(text: str, path: list[Number]) -> bool:
-    """Whether no number ends where a digit behind belongs to it: "twenty / five sixty"."""
-    return not any(last in BINDING and 0 <= first < 10 for last, first, _ in _gaps(text, path))
+    """Whether no number ends where a digit behind belongs to it: "twenty / five sixty", not "thirty
+    / zero", "zero / zero".
+    """
+    return not any(
+        last in BINDING and (0 < first < 10 or (first == 0 < last < 10))
+        for last, first, _ in _gaps(text, path)
+    )
 
 
 def _gaps(text: str, path: list[Number]) -> Iterator[tuple[float, float, int]]:

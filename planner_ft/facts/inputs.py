@@ -10,7 +10,16 @@ from dataclasses import replace
 from typing import Any
 
 from planner_ft.facts import places, reading
-from planner_ft.facts.geometry import CLOSE, Area, Ground, Point, rectangle, sector_counts, turned
+from planner_ft.facts.geometry import (
+    CLOSE,
+    CORNERS,
+    Area,
+    Ground,
+    Point,
+    rectangle,
+    sector_counts,
+    turned,
+)
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import Position, read_positions, rows_of_sizes
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
@@ -165,13 +174,16 @@ class Input:
     @functools.cached_property
     def rectangles(self) -> tuple[Area, ...]:
         """The areas that a command says by four corners in a row, and by no other sizes."""
-        text = self.facts.text
-        lengths = [one for one in read_numbers(text) if one.unit == "m"]
-        if self.is_task or rows_of_sizes(text) or len(lengths) > 1:
-            return ()
+        text, found = self.facts.text, list[Area]()
         rows = places.rows_of(text, places.written_positions(text))
-        corners = ([(at.x, at.y) for at in row] for row in rows if len(row) == 4)
-        return tuple(filter(None, map(rectangle, corners)))
+        together = {one.start for row in rows_of_sizes(text) for one in row}
+        lengths = [one for one in read_numbers(text) if one.unit == "m" or one.start in together]
+        for row in rows if not self.is_task else ():
+            corners = [(at.x, at.y) for at in row]
+            area = rectangle(corners) if len(row) == len(CORNERS) else None
+            others = {one.value for one in lengths} - {*(area or ())[1:]}
+            found += [area] if area and len(others) <= 1 else []
+        return tuple(found)
 
     def _corrected(self) -> Iterator[Point]:
         """Positions with one coordinate told anew behind them."""

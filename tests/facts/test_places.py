@@ -546,6 +546,24 @@ def test_rows_of_dictated_coordinates_are_places() -> None:
     assert {(one.x, one.y) for one in read_positions(said)} == {*places}
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("first twenty ten then forty ten and hold", "first [20, 10] then [40, 10] and hold"),
+        ("go to ten thirty then one hundred thirty", "go to [10, 30] then [100, 30]"),
+        ("by thirty zero then minus thirty forty", "by [30, 0] then [-30, 40]"),
+        ("corners zero zero sixty zero and ten forty", "corners [0, 0] [60, 0] and [10, 40]"),
+        ("a ten and twenty five metre hold", "a ten and twenty five metre hold"),
+        ("wait twenty five and thirty five", "wait twenty five and thirty five"),
+        ("zero nine zero then one eight zero", "zero nine zero then one eight zero"),
+        ("one fifty and two twenty then six ten", "one fifty and two twenty then six ten"),
+        ("one hundred ten then two hundred ten", "one hundred ten then two hundred ten"),
+    ],
+)
+def test_dictated_pairs_in_a_row_are_places(text: str, told: str) -> None:
+    assert with_brackets(text) == told
+
+
 def test_dictated_coordinates_are_no_other_numbers() -> None:
     said = read("Go round the buoy at one ten eighty fifty metres off.")
     assert {one.value for one in said.numbers("m")} == {50}

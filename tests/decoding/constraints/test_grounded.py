@@ -174,6 +174,8 @@ BOX = "Chart the box 20,20 / 80,20 / 80,60 / 20,60, lanes 5 m apart."
         (BOX, [50, 40], (60, 5), False),
         (BOX, [20, 20], (80, 20), False),
         (BOX, [80, 60], (20, 20), False),
+        (f"{BOX[:-1]}, so 60 m wide, 40 m long.", [50, 40], (60, 40), True),
+        (f"{BOX[:-1]}, so 60 m wide, 40 m long.", [20, 20], (60, 40), False),
         ("Chart 10 by 5 m at 20,20, 80,20, 80,60 and 20,60.", [20, 20], (10, 5), True),
         (f"Stay in {BOX[10:41]}. Chart at 30,30, width 8, length 12.", [30, 30], (8, 12), True),
         ("Chart the box 20,20 / 80,25 / 80,60 / 20,60.", [20, 20], (80, 20), True),
