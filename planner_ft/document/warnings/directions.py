@@ -18,8 +18,9 @@ def laid_otherwise(case: Case) -> Iterator[Warning]:
     if any(read_bearings(task["task_prompt"]) for task in over):
         return
     for clause in case.clauses if over else ():
-        laid = case.words["laid"].search(clause.text)
-        if laid and read_bearings(clause.text) and case.wants(clause.start + laid.start()):
+        words = "laid" if read_bearings(clause.text) else "across"
+        laid = case.words[words].search(clause.text)
+        if laid and case.wants(clause.start + laid.start()):
             yield lost(clause.text.strip(" ,;."))
 
 

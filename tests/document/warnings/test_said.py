@@ -143,6 +143,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ),
         ("Hold at 1,9, 2,9 and 3,9 for a minute, twice.", [*at(1), *at(2), *at(3)] * 2, (), None),
         ("Map 50 by 50 m at 9,9, 10 m lines, east-west lines.", [grid(50, 50)], (), "value-lost"),
+        ("Map 50 by 50 m at 9,9, 10 m cross lines.", [grid(50, 50)], (), "value-lost"),
         ("Map 50 wide, 80 long at 9,9, lines 10 apart.", [grid(50, 50)], (), "value-lost"),
         ("Map 50 wide, 80 long at 9,9, lines 10 apart.", [grid(50, 80)], (), None),
         ("Look round in 4, no, 14 sectors.", [look(4)], (), "value-lost"),
