@@ -17,6 +17,7 @@ from planner_ft.document.structures import (
     along,
     berth,
     fence,
+    lies_at,
     posts,
     runs_along,
     structures,
@@ -102,9 +103,9 @@ class _Steps:
             moved = self._to_standoff(step)
             goal, here = self._goal(moved), self.pen.here
             if here and goal:
-                # What a berth lies beside does not bar the way to it.
+                # What a berth lies at does not bar the way to it.
                 docked = self.berths & {here, goal}
-                known = [one for one in self.known if not any(one.blocks(at, at) for at in docked)]
+                known = [one for one in self.known if not lies_at(one, docked)]
                 for point in way_round(here, goal, known, allowed, self.beside):
                     self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
             self._add(moved, own, "ends at the stand-off" if moved is not step else "")

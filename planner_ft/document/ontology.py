@@ -31,7 +31,7 @@ _PLACED = re.compile(
 _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|standing|lies?|lying|sits?|floats?"
     r"|hangs?|rests?|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
-    r"(?:in the \w+\s+)?(?:,?\s*namely\s+)?(?:at|near|around|in|on|by)\s*"
+    r"(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?(?:at|near|around|in|on|by)\s*"
     r"|(?=[\[(\d−–-]))[\[(]?\s*"
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""

@@ -9,7 +9,7 @@ what stands in the middle of the area ("the platform").
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,6 +31,7 @@ FOLLOWING = "follow"
 SAME = 0.6  # metres within which a waypoint is a structure itself
 MARGIN = 0.5
 """Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
+ALONGSIDE = 3.0  # metres within which a structure is the berth's own quay or pontoon
 MOST_PARTS = 60  # circles by which a line is kept clear of
 CORNERS = 12  # waypoints of a full way round a structure
 MOVING = ("go", "arc")
@@ -161,11 +162,12 @@ def close_legs(
             continue
         close = [berths[one.task] for one in (leg, last) if one and one.task in berths]
         for structure in known:
-            if any(structure.blocks(place, place) for place in close):
+            if lies_at(structure, close):
                 continue
             pairs = itertools.pairwise(leg.points)
             nearest = min(way_off(structure.position, *pair) for pair in pairs)
             ends = [point for point in (leg.points[0], leg.points[-1]) if point == vocabulary.home]
+            ends += close
             if last and last.task in along and structure.blocks(*(leg.points[0],) * 2):
                 continue
             allowed = min([structure.standoff, *(math.dist(structure.position, at) for at in ends)])
@@ -213,6 +215,11 @@ def closed_area(corners: Sequence[Point]) -> Any:
     area = make_valid(Polygon(corners))
     inside = area.buffer(-MARGIN)
     return area.buffer(MARGIN) if inside.is_empty else inside
+
+
+def lies_at(structure: Structure, berths: Iterable[Point]) -> bool:
+    """Whether a structure is what a berth lies at."""
+    return any(math.dist(structure.position, place) <= ALONGSIDE for place in berths)
 
 
 def berth(task: Entry, vocabulary: Vocabulary) -> Point | None:

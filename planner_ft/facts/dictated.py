@@ -21,7 +21,7 @@ _AT = re.compile(
 )
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
 _COMMA = re.compile(r"\s+comma\s+")
-_BESIDE = re.compile(r"\s+(?:and|then|and then|to)\s+")
+_BESIDE = re.compile(r"(?:\s*,)?\s+(?:(?:and|then|and then|to)\s+)?")
 _BY = re.compile(r"\s+by\s")
 _TIMES = re.compile(r"\s+times\b")
 _SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)

@@ -246,7 +246,7 @@ def test_berths_and_areas_that_are_gone_over_are_no_structures() -> None:
     assert nearest(plan, [50, 30]) >= 9 or "structure-close" in kinds(plan)
 
 
-@pytest.mark.parametrize(("head", "kept"), [((40.0, 42.0), True), ((-8.0, 4.0), False)])
+@pytest.mark.parametrize(("head", "kept"), [((40.0, 42.0), True), ((-7.0, -2.0), False)])
 def test_docking_keeps_clear_of_all_but_what_the_berth_is_at(
     head: tuple[float, float], kept: bool
 ) -> None:
@@ -256,6 +256,13 @@ def test_docking_keeps_clear_of_all_but_what_the_berth_is_at(
     assert (away >= 9) is kept and "structure-close" not in kinds(plan)
     steps = plan["tasks"][1]["skill_sequence"]
     assert (len(steps) > 1) is kept and steps[-1]["navigation_skill"]["parameters"]["x"] == -6
+
+
+def test_the_way_to_a_berth_leads_round_what_lies_before_it() -> None:
+    berth = task("DockingApproach", {"goal_position": [12, -6]}, [go(12, -6)], "Dock at [12, -6].")
+    plan = document([berth], command="Dock at [12, -6]. Mind the barge moored at [6, -3].")
+    assert nearest(plan, [6, -3]) > 5 and "structure-close" not in kinds(plan)
+    assert waypoints(plan)[-1] == [12, -6]
 
 
 def test_a_ring_is_begun_on_the_near_side_unless_a_side_is_named() -> None:

@@ -219,6 +219,11 @@ def test_things_beside_positions_are_no_places_of_the_water() -> None:
     assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8), ("the lock gate", 5, 8)]
 
 
+def test_a_thing_in_between_is_a_thing() -> None:
+    found = named_places("From [1, 0] to [1, 8], there's a pier foot in between at [1, 4].", USV)
+    assert [(words, place.y) for words, place in found] == [("a pier foot", 4)]
+
+
 def test_the_corners_of_an_area_are_no_things_and_four_piles_are() -> None:
     corners = "[0, 0], [40, 0], [40, 20] and [0, 20]"
     assert not named_places(f"Chart the basin {corners}.", USV)

@@ -551,6 +551,7 @@ def test_rows_of_dictated_coordinates_are_places() -> None:
     [
         ("first twenty ten then forty ten and hold", "first [20, 10] then [40, 10] and hold"),
         ("go to ten thirty then one hundred thirty", "go to [10, 30] then [100, 30]"),
+        ("corners twenty ten, eighty ten, then up", "corners [20, 10], [80, 10], then up"),
         ("by thirty zero then minus thirty forty", "by [30, 0] then [-30, 40]"),
         ("corners zero zero sixty zero and ten forty", "corners [0, 0] [60, 0] and [10, 40]"),
         ("a ten and twenty five metre hold", "a ten and twenty five metre hold"),

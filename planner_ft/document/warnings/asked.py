@@ -12,6 +12,7 @@ from planner_ft.support.files import compact_json
 
 STEM = 5  # first letters by which a word is found again
 NEAR = 24  # characters in which words that rule something out stand before it
+BESIDE = 12  # characters between words that rule something out and those that name it
 ARTICLE = 3  # words before a noun among which its article is
 NONE = re.compile(r"No |(The [\w ]+? does not )")
 """How a constraint begins that leaves something out, or something that the vehicle does."""
@@ -254,16 +255,21 @@ def conditions(case: Case) -> Iterator[Warning]:
 
 
 def home_and_not(case: Case) -> Iterator[Warning]:
-    """A command that asks for home and rules it out, and a plan that ends there."""
+    """A command that asks for home and rules it out, or rules it out for a plan that ends there."""
     said = [
-        (clause.wants(clause.start + match.start()), clause)
+        (clause.wants(clause.start + match.start()), clause, clause.start + match.start())
         for clause in case.clauses
         if not clause.corrected
         for match in case.words["home"].finditer(clause.text)
         if match.end() not in {at.end() for at in case.words["from_home"].finditer(clause.text)}
     ]
-    if {wanted for wanted, _clause in said} == {True, False}:
-        words = quoted(next(clause.text for wanted, clause in said if not wanted).strip(" ,;"))
-        there = place_of(case.tasks[-1], case.vocabulary) == case.vocabulary.home
+    wishes = {wanted for wanted, _clause, _at in said}
+    there = place_of(case.tasks[-1], case.vocabulary) == case.vocabulary.home
+    # "No return", but not "don't touch the net and go home".
+    none = wishes == {False} and all(
+        one.excluded is not None and 0 <= at - one.excluded <= BESIDE for _no, one, at in said
+    )
+    if wishes == {True, False} or (none and there):
+        words = quoted(next(clause.text for wanted, clause, _at in said if not wanted).strip(" ,;"))
         ends = "ends there" if there else "does not end there"
         yield warning("contradiction", "home", about="home", words=words, ends=ends)

@@ -20,6 +20,7 @@ from planner_ft.document.warnings.case import (
     warning,
 )
 from planner_ft.facts import Number, is_place, near
+from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_times
 from planner_ft.facts.places import is_course, read_bearings, read_positions, rows_of_sizes
 from planner_ft.facts.together import REREAD, neighbours
@@ -32,6 +33,7 @@ SIZES = re.compile(r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$"
 """Stands before the later sizes of "20 x 20 x 5" and "40 m wide x 20 m long"."""
 AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
+SIDE = re.compile(rf"\b(?:{'|'.join(SIDES)})(?: (?:of|is))?\s*[:=]?\s*$", re.IGNORECASE)
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b(?!\.)\W*", re.IGNORECASE)
@@ -181,6 +183,8 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)
+        elif SIDE.search(before):  # a coordinate that follows from others is no "width 50"
+            known = any(near(number.value, one) for one in case.plan.numbers)
         bare = bare or number.value < 0 or _is_distance(number, case)
         if number.start in apart or ((bare or instead or behind) and not known):
             yield case.lost(number.start, number.end)
