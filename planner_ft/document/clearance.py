@@ -29,6 +29,7 @@ from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
 from planner_ft.vocabulary import Entry, Vocabulary
 
 MOST_ROUNDS = 30
+ARC_STARTS = 24  # directions from the centre in which a part of a circle may begin
 KEEPS_CLEAR = "keeps clear of a structure"
 Step = dict[str, Any]
 Marks = list[dict[str, Any]]
@@ -43,7 +44,8 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     pen = Pen(vocabulary, document.get("vehicle") or {})
     allowed, done = fence(document, vocabulary), []
     berths = {place for task in tasks if (place := berth(task, vocabulary))}
-    for before, task, following in zip([None, *tasks], tasks, [*tasks[1:], None], strict=False):
+    ahead = itertools.zip_longest(tasks, tasks[1:], tasks[2:])
+    for before, (task, following, last) in zip([None, *tasks], ahead, strict=False):
         steps = task.get("skill_sequence")
         if steps is None or task.get("stale") or runs_along(task, vocabulary):
             pen.draw(task)
@@ -53,8 +55,9 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
         faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
         walls = [wall for face in faces if face for wall in _walls(face)]
         circle = reached or circle_of(task, vocabulary)
-        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1], berths, beside)
-        done.append(clearing.cleared(allowed, _onward(following, vocabulary)))
+        clearing = _Steps(task, [*known, *walls], circle, pen, faces[1], berths, beside, allowed)
+        clearing.arc = _arc(following, last, vocabulary) if reached else None
+        done.append(clearing.cleared(_onward(following, vocabulary)))
     return done
 
 
@@ -66,6 +69,24 @@ def _onward(task: dict[str, Any] | None, vocabulary: Vocabulary) -> list[Point]:
     around = vocabulary.task[task["title"]].pattern in ROUND
     goals = [goal_of(step, vocabulary) for step in (steps if around else steps[:1])]
     return [point_of(goal) for goal in goals if goal]
+
+
+def _arc(
+    task: dict[str, Any] | None, following: dict[str, Any] | None, vocabulary: Vocabulary
+) -> tuple[float, Point] | None:
+    """The angle in degrees of a task that goes a part of a circle from wherever it begins, and
+    where the next one goes.
+    """
+    steps = following and following.get("skill_sequence")
+    goal = goal_of(steps[0], vocabulary) if steps else None
+    for step in (task or {}).get("skill_sequence") or () if goal else ():
+        skill = step["navigation_skill"]
+        motion = vocabulary.motion.of(skill["name"])
+        angle = motion.value("angle", skill["parameters"]) if motion else None
+        if motion and motion.kind == "arc" and angle and angle % 360:
+            named = task and read_bearings(task["task_prompt"])
+            return (angle, point_of(goal)) if goal and not named else None
+    return None
 
 
 def _walls(face: Face) -> list[Structure]:
@@ -88,13 +109,15 @@ class _Steps:
         face: Face | None,
         berths: set[Point],
         beside: Sequence[Point],
+        allowed: Allowed,
     ) -> None:
         self.task, self.known, self.circle, self.pen, self.face = task, known, circle, pen, face
-        self.berths, self.beside = berths, beside
+        self.berths, self.beside, self.allowed = berths, beside, allowed
+        self.arc: tuple[float, Point] | None = None
         self.steps: list[Step] = []
         self.marks: Marks = []
 
-    def cleared(self, allowed: Allowed, onward: Sequence[Point]) -> dict[str, Any]:
+    def cleared(self, onward: Sequence[Point]) -> dict[str, Any]:
         self.pen.begin(self.task)
         own = self.task.get("added", [])
         steps, marks = self._entered(self.task["skill_sequence"], own, onward)
@@ -106,7 +129,7 @@ class _Steps:
                 # What a berth lies at does not bar the way to it.
                 docked = self.berths & {here, goal}
                 known = [one for one in self.known if not lies_at(one, docked)]
-                for point in way_round(here, goal, known, allowed, self.beside):
+                for point in way_round(here, goal, known, self.allowed, self.beside):
                     self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
             self._add(moved, own, "ends at the stand-off" if moved is not step else "")
         entry = {**self.task, "skill_sequence": self.steps}
@@ -161,10 +184,30 @@ class _Steps:
             radius = self.circle[1]
         if self.face and math.dist(self.face.middle, center) <= SAME:
             return self._with_goal(step, offset(center, self.face.side, radius))
+        if self.arc and here and (start := self._arc_start(here, center, radius)):
+            return self._with_goal(step, start)
         away, (x, y) = math.dist(here, center) if here else 0.0, (-1.0, 0.0)
         if here and away:
             x, y = (here[0] - center[0]) / away, (here[1] - center[1]) / away
         return self._with_goal(step, (center[0] + radius * x, center[1] + radius * y))
+
+    def _arc_start(self, here: Point, center: Point, radius: float) -> Point | None:
+        """Where a part of a circle is begun so that the ways to it and on from its end are short;
+        None where one of them is barred.
+        """
+        angle, goal = self.arc or (0.0, here)
+        starts = [360.0 * number / ARC_STARTS for number in range(ARC_STARTS)]
+        ends = [(offset(center, at, radius), offset(center, at + angle, radius)) for at in starts]
+        ways = ((self._length(here, one) + self._length(end, goal), one) for one, end in ends)
+        length, start = min(ways)
+        return start if math.isfinite(length) else None
+
+    def _length(self, start: Point, goal: Point) -> float:
+        """Metres of the way that keeps clear; infinite where there is none."""
+        points = way_round(start, goal, self.known, self.allowed, self.beside)
+        if not points and not self._is_free(start, goal):
+            return math.inf
+        return sum(map(math.dist, [start, *points], [*points, goal]))
 
     def _add(self, step: Step, marks: Marks, note: str) -> None:
         if note:

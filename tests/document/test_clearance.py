@@ -52,7 +52,8 @@ def kinds(plan: dict[str, Any]) -> list[str]:
 def test_an_orbit_is_entered_on_its_circle_and_left_round_it(arc: float) -> None:
     plan = document([transit(*MAST), orbit(arc), transit(0, 0)])
     assert nearest(plan, MAST) >= 39
-    assert waypoints(plan)[0] == [211.9, -67.8]
+    near = [211.9, -67.8]
+    assert (waypoints(plan)[0] == near) is (arc == 360)
     assert waypoints(plan)[-1] == [0, 0]
     assert plan["tasks"][0]["parameters"]["target_position"] == MAST
     assert plan["tasks"][0]["added"][0]["kind"] == "clearance"
@@ -256,6 +257,16 @@ def test_docking_keeps_clear_of_all_but_what_the_berth_is_at(
     assert (away >= 9) is kept and "structure-close" not in kinds(plan)
     steps = plan["tasks"][1]["skill_sequence"]
     assert (len(steps) > 1) is kept and steps[-1]["navigation_skill"]["parameters"]["x"] == -6
+
+
+@pytest.mark.parametrize("side", ["", "from the west side"])
+def test_a_half_circle_is_begun_so_that_the_way_on_is_short(side: str) -> None:
+    around = {**orbit(180), "task_prompt": f"Circle the mast {side}."}
+    plan = document([transit(*MAST), around, transit(0, 0)])
+    legs = [leg for leg in track(plan, USV).legs if leg.kind == "go"]
+    length = sum(math.dist(*leg.points) for leg in legs)
+    # The near side is 212 m from home, the far side 296 m, and the way round the mast is longer.
+    assert (length < 520) is not side and nearest(plan, MAST) >= 39
 
 
 def test_the_way_to_a_berth_leads_round_what_lies_before_it() -> None:
