@@ -40,7 +40,8 @@ _DICTATED = re.compile(r"[a-z] (?:(?:decimal|point) [a-z]|degrees? [a-z])", re.I
 _UTM = re.compile(
     r"(?:\bUTM\b\W{0,3})?(?:\bzone\s)?\b(?P<zone>[1-9]|[1-5]\d|60)\s?(?P<band>[C-HJ-NP-X])?\b"
     r"\W{1,3}(?:(?:easting|E|x)\W{0,3})?(?P<easting>\d{6}(?:\.\d+)?)(?:\s?m?E\b|\s?m\b)?"
-    r"\W{1,3}(?:(?:and )?(?:northing|N|y)\W{0,3})?(?P<northing>\d{7}(?:\.\d+)?)(?:\s?m?N\b|\s?m\b)?",
+    r"\W{1,3}(?:(?:and )?(?:northing|N|y)\W{0,3})?(?P<northing>\d{7}(?:\.\d+)?)"
+    r"(?:\s?m?N\b|\s?m\b)?",
     re.IGNORECASE,
 )
 """A letter is a band of latitude, from N on in the north; S is the southern half."""

@@ -23,7 +23,8 @@ PASSED = 3  # words between a number and its unit: "quarter of a nautical mile"
 
 _TOKEN = re.compile(
     r"\d{1,3}(?:,\d{3})+(?=\s?(?:m|metres|meters|s|seconds)\b)"
-    r"|(?<![\d.,])(?:0,\d{1,2}(?=\s?(?:k?m|nm)\b)|\d,\d(?=\s?(?:m/s|kn|kts?|knots|m|met(?:re|er)s?)\b))"
+    r"|(?<![\d.,])(?:0,\d{1,2}(?=\s?(?:k?m|nm)\b)"
+    r"|\d,\d(?=\s?(?:m/s|kn|kts?|knots|m|met(?:re|er)s?)\b))"
     rf"|(?:\d+\s?)?[{''.join(lists.VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
     r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
