@@ -219,6 +219,11 @@ def test_things_beside_positions_are_no_places_of_the_water() -> None:
     assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8), ("the lock gate", 5, 8)]
 
 
+def test_where_something_begins_is_no_thing() -> None:
+    for told in ("Drift a quarter of an hour starting at [0, -30].", "Log it beginning at [4, 5]."):
+        assert not named_places(told, USV)
+
+
 def test_a_thing_in_between_is_a_thing() -> None:
     found = named_places("From [1, 0] to [1, 8], there's a pier foot in between at [1, 4].", USV)
     assert [(words, place.y) for words, place in found] == [("a pier foot", 4)]
