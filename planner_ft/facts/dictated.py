@@ -68,6 +68,10 @@ def _place(text: str, run: Run) -> list[Pair]:
         return []
     paths = list(_paths(text, run.numbers, start, end))
     times = _TIMES.match(text, end) is not None
+    whole = [path for path in paths if len(path) > 1 and len(run.parts) == 2 and not times]
+    pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
+    if len(pairs) == 1 and not any(path[1].unit or path[1].counts for path in whole):
+        return list(pairs)  # "one ten comma minus sixty / fifteen"
     counted = times or any(path[-1].counts for path in paths)
     measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
     more = measured or counted

@@ -303,5 +303,5 @@ def _joins(current: float, following: float, total: float) -> bool:
     if current == 0:
         return total > 0
     if current >= 100 and current % 100 == 0:
-        return following < 100
+        return 0 < following < 100
     return current >= 20 and current % 10 == 0 and 0 < following < 10

@@ -514,6 +514,8 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("centred at one twenty sixty lanes every five metres", (120, 60)),
         ("two piers: one at forty comma sixty one at the end", (40, 60)),
         ("at one hundred comma thirty two times", (100, 30)),
+        ("at one ten comma minus sixty fifteen no sorry fifty metres", (110, -60)),
+        ("to two hundred zero and hold", (200, 0)),
         ("to fifty comma one twenty four times", (50, 120)),
         ("at minus fifty comma seventy one full circle", (-50, 70)),
     ],
