@@ -99,22 +99,26 @@ def lawnmower(
     spacing: float,
     corner: Corner = "south-west",
     lanes_along: Axis = "y",
+    *,
+    uneven: bool = False,
 ) -> list[Point]:
     """Ends of the lanes in the order in which they are run, two per lane, each lane against the one
     before.
 
     `width` lies along x and `length` along y. The first lane starts at `corner`; lanes step away
-    from it. Raises ValueError when `spacing` does not divide the extent across the lanes.
+    from it. Where `spacing` does not divide the extent across the lanes, the last one may be nearer
+    to the one before (`uneven`); else raises ValueError.
     """
     axis, size = (0 if lanes_along == "y" else 1), (width, length)
     sides = (1 if "east" in corner else -1), (1 if "north" in corner else -1)
     lanes = lane_count(size[axis], spacing)
-    if lanes is None:
+    if lanes is None and not uneven:
         raise ValueError(f"lanes {spacing} m apart do not fill {size[axis]} m")
+    lanes = lanes or math.ceil(size[axis] / spacing) + 1
     reach = sides[1 - axis] * size[1 - axis] / 2
     points = []
     for lane in range(lanes):
-        step = center[axis] + sides[axis] * (size[axis] / 2 - lane * spacing)
+        step = center[axis] + sides[axis] * (size[axis] / 2 - min(lane * spacing, size[axis]))
         for end in (reach, -reach) if lane % 2 == 0 else (-reach, reach):
             run = center[1 - axis] + end
             points.append(point(step, run) if axis == 0 else point(run, step))

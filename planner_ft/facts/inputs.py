@@ -84,9 +84,9 @@ class Input:
         if parameter.type == "position":
             ground = self.ground if place else None
             away = (ground.is_way_off(_point(value), at) for at in ground.places) if ground else ()
-            follows = place and (
-                any(away) or any(math.dist(value, at) <= CLOSE for at in self.worked_places)
-            )
+            middles = (middle for middle, _width, _length in self.rectangles)
+            worked = itertools.chain(self.worked_places, middles)
+            follows = place and (any(away) or any(math.dist(value, at) <= CLOSE for at in worked))
         else:
             follows = is_number(value) and any(near(value, one) for one in self.values(parameter))
         return Evidence("derived") if follows else found
@@ -242,8 +242,9 @@ class Input:
             items = filter(is_number, value if isinstance(value, list) else [value])
             given = (item if base is None else converted(item, own_unit, unit) for item in items)
             found += [item for item in given if item is not None]
-        if parameter.name in SIDES and base == "m" and not self.is_task and self.ground:
-            found += self.ground.sides
+        if parameter.name in SIDES and base == "m" and not self.is_task:
+            found += self.ground.sides if self.ground else ()
+            found += [side for _middle, *sides in self.rectangles for side in sides]
         if base in ("s", "m"):
             found += [value * factor for factor in self._factors for value in found]
         if named(unit) == UNITS["deg"]:

@@ -9,7 +9,7 @@ import copy
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planner_ft.planning.limits import forbidden_skills
+from planner_ft.planning.limits import forbidden_skills, kept_off
 from planner_ft.vocabulary import Skill, Vocabulary
 from planner_ft.vocabulary.essentials import essentials_of
 from planner_ft.vocabulary.plans import canonical_parameters, step_skills
@@ -25,9 +25,15 @@ VEHICLE = "vehicle"
 
 
 def missing_defaults(task: TaskEntry, vocabulary: Vocabulary) -> dict[str, Any]:
-    """The vehicle's values for parameters that a task leaves out."""
+    """The vehicle's values for parameters that a task leaves out; a stand-off is as large as limits
+    in its prompt want it.
+    """
     defaults = essentials_of(task["title"], vocabulary).defaults
-    return {name: value for name, value in defaults.items() if name not in task["parameters"]}
+    missing = {name: value for name, value in defaults.items() if name not in task["parameters"]}
+    circle = vocabulary.motion.standoff(task["title"])
+    if circle and circle.radius in missing:
+        missing[circle.radius] = max(missing[circle.radius], kept_off(task, vocabulary))
+    return missing
 
 
 def with_defaults(task: TaskEntry, vocabulary: Vocabulary) -> dict[str, Any]:

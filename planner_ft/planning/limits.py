@@ -130,6 +130,18 @@ def forbidden_skills(prompt: str, vocabulary: Vocabulary) -> set[str]:
     return {name for limit in holding for name in limits[limit.kind].forbids}
 
 
+def kept_off(task: Mapping[str, Any], vocabulary: Vocabulary) -> float:
+    """The metres that the limits in a task's prompt keep from what it is done at; 0 without any."""
+    prompt, known = task.get("task_prompt", ""), vocabulary.task[task["title"]]
+    asked = without_limits(prompt, vocabulary).casefold()
+    place, off = task["parameters"].get(known.position_parameter or ""), [0.0]
+    for limit in limits_in(SENTENCE.split(prompt), load_limits(vocabulary)):
+        at, thing = limit.values.get("position"), limit.values.get("object", "").casefold()
+        if at == place if at else thing and thing in asked:
+            off.append(limit.values.get("distance", 0.0))
+    return max(off)
+
+
 def time_left(values: Mapping[str, Any]) -> float | None:
     """Seconds to be back within, where a time of return is a duration ("40 minutes")."""
     readings = read(str(values.get("within") or values["time"])).numbers("s")

@@ -72,7 +72,8 @@ def with_shape(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -
     if not points or not goals or len(goals) < len(made) or not _is_plain(task, vocabulary):
         return list(steps), Added()
     grid = vocabulary.task[task["title"]].pattern == "lawnmower"
-    twice = grid and len({*goals}) < len(goals) and not AGAIN.search(task["task_prompt"])
+    again = AGAIN.search(without_limits(task["task_prompt"], vocabulary))
+    twice = grid and len({*goals}) < len(goals) and not again
     if not twice and not shape_problem(task, goals, vocabulary):
         return list(steps), Added()
     whole = [steps[min(at, len(steps) - 1)] for at in range(len(points))]
@@ -178,8 +179,9 @@ def shape_points(task: TaskEntry, vocabulary: Vocabulary) -> list[Point]:
         points = g.survey_square(at, given[RADIUS])
     elif known.pattern == "lawnmower" and all(is_number(given.get(n)) for n in (*SIZE, SPACING)):
         width, length, spacing = given[SIZE[0]], given[SIZE[1]], given[SPACING]
-        if min(width, length, spacing) > 0 and g.lane_count(width, spacing):
-            points = g.lawnmower(at, width, length, spacing)
+        lanes = width / spacing if min(width, length, spacing) > 0 else 0.0
+        if 0 < lanes <= MOST_WAYPOINTS:
+            points = g.lawnmower(at, width, length, spacing, uneven=True)
     return points if len(points) <= MOST_WAYPOINTS else []
 
 

@@ -122,3 +122,8 @@ def test_coordinates_have_two_decimals_and_no_negative_zero() -> None:
     assert [str(g.tidy(value)) for value in (2.0, -0.001, 1.005001, 1.25)] == [
         *("2", "0", "1.01", "1.25")
     ]
+
+
+def test_lanes_may_end_at_the_far_side_nearer_to_the_one_before() -> None:
+    ends = g.lawnmower((0, 0), 10, 4, 4, uneven=True)
+    assert [x for x, _y in ends[::2]] == [-5, -1, 3, 5]

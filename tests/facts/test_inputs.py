@@ -350,6 +350,14 @@ def test_sides_of_an_area_follow_from_its_corners() -> None:
     assert {80, 60} <= set(from_home.values(survey["width"]))
 
 
+def test_an_area_of_four_corners_follows_among_many_other_places() -> None:
+    others = " ".join(f"{at},{2 * at}" for at in range(1, 12))
+    source = read_input({"prompt": f"Box 30,30 / 90,30 / 90,70 / 30,70. Not: {others}."}, USV)
+    center = USV.task["BathymetryGridSurvey"].by_name["center"]
+    assert source.evidence([60, 50], center).kind == "derived"
+    assert {60, 40} <= set(source.values(USV.task["BathymetryGridSurvey"].by_name["width"]))
+
+
 def test_places_that_are_worked_out_lie_as_far_off_as_the_numbers_reach() -> None:
     said = "Patrol between 100,0 and 100,200 three times."
     worked = read_input({"prompt": said}, USV).worked_places

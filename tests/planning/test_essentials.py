@@ -7,7 +7,7 @@ import pytest
 from planner_ft.document import apply, build, undo
 from planner_ft.document.tree import plan_tree
 from planner_ft.planning import Planner
-from planner_ft.planning.essentials import performing, with_essentials
+from planner_ft.planning.essentials import missing_defaults, performing, with_essentials
 from planner_ft.planning.limits import last_away, time_left
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
@@ -34,6 +34,23 @@ def test_defaults_reach_the_task_agent_and_skills_are_added_behind_it(known: Kno
     assert "(the vehicle's: radius 10; SetStreamRecording, GetGPSLocation in every step)" in shown
     assert made["complete"] and made["questions"] == []
     assert not [one for one in made["warnings"] if one["kind"].endswith("value-not-said")]
+
+
+@pytest.mark.parametrize(
+    ("limit", "radius"),
+    [
+        ("Keep at least 25 m from the wreck at [50, 30].", 25),
+        ("Keep at least 25 m from the wreck.", 25),
+        ("Keep at least 4 m from the wreck.", 10),
+        ("Keep at least 25 m from the divers at [150, 30].", 10),
+        ("Keep at least 25 m from the divers.", 10),
+    ],
+)
+def test_a_stand_off_that_nobody_states_is_what_limits_want(limit: str, radius: float) -> None:
+    survey = proposed("SurveyTarget", f"Inspect the wreck. {limit}", target_position=AT)
+    assert missing_defaults(survey, USV) == {"radius": radius}
+    stated = proposed("SurveyTarget", f"Inspect it. {limit}", target_position=AT, radius=20)
+    assert missing_defaults(stated, USV) == {}
 
 
 def test_a_stated_value_stays(known: Known) -> None:
