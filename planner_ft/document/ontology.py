@@ -51,7 +51,7 @@ _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNOR
 """What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
 # A size behind a noun phrase ("of 12 m"), and a letter or number behind a noun ("pile A at").
 _SIZE = re.compile(r"\s+of\s+\d[\d.,]*\s?[a-z]+\b")
-_MARK = re.compile(r"\s+(?:[A-Z]|\d{1,3})(?=\s+at\b)")
+_MARK = re.compile(r"\s+(?:[A-Z]{1,3}-?\d{0,3}|\d{1,3})(?=\s+at\b|\s*[\[(])")
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 

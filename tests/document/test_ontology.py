@@ -219,8 +219,22 @@ def test_things_beside_positions_are_no_places_of_the_water() -> None:
     assert found == [("the mast", 1, 2), ("the mooring buoy", 7, 8), ("the lock gate", 5, 8)]
 
 
+def test_a_thing_with_a_code_stands_at_its_coordinates() -> None:
+    for told in (
+        "Pile P12 (75, -25): panorama.",
+        "Go to pile 12 [75, -25].",
+        "Go to pile A at 75, -25.",
+    ):
+        ((_words, place),) = named_places(told, USV)
+        assert (place.x, place.y) == (75, -25)
+
+
 def test_where_something_begins_is_no_thing() -> None:
-    for told in ("Drift a quarter of an hour starting at [0, -30].", "Log it beginning at [4, 5]."):
+    for told in (
+        "Cut the propulsion at [4, 5].",
+        "Drift a quarter of an hour starting at [0, -30].",
+        "Log it beginning at [4, 5].",
+    ):
         assert not named_places(told, USV)
 
 
