@@ -14,8 +14,8 @@ from planner_ft.facts.words import SCALES, SMALL, WORDS
 
 SIGNS = ("minus", "negative", "plus", "comma")
 BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them belongs to
-MOST_WORDS, LONGEST_ROW = 12, 60
-"""Words of one place, and of several in a row, that are looked at."""
+MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
+"""Words of one place, of several in a row, and of a row with commas, that are looked at."""
 _AT = re.compile(
     r"\b(?:at|to|near|around|from|between|on|position)\s+(?:(?:plus|uh|er)\s+)?$", re.I
 )
@@ -91,6 +91,8 @@ def _row(text: str, run: Run) -> list[Pair]:
     """
     numbers = list[Number]()
     bare = len(run.parts) == 1
+    if bare and len(text[run.start : run.end].split()) > MOST_BARE:
+        return []
     if _TIMES.match(text, run.end) or _BY.match(text, run.end):
         return []
     for place, (start, end) in enumerate(run.parts):
