@@ -11,7 +11,7 @@ from typing import Any
 
 from planner_ft.document.language import Language, language, pattern, read_clauses
 from planner_ft.facts import Position, Span
-from planner_ft.facts.geometry import CORNERS, rectangle
+from planner_ft.facts.geometry import rectangle
 from planner_ft.facts.places import read_positions, rows_of, written_positions
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
@@ -156,7 +156,7 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
 
 def _is_area(row: list[Position]) -> bool:
     """Whether a row of positions is an area by its four corners, and no row of things."""
-    return len(row) == len(CORNERS) and rectangle([(at.x, at.y) for at in row]) is not None
+    return rectangle([(at.x, at.y) for at in row]) is not None
 
 
 def _told_things(

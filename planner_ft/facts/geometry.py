@@ -73,9 +73,11 @@ def survey_square(
 
 def rectangle(corners: Sequence[Point]) -> Area | None:
     """The area of four corners with sides along the axes; None where they are no such."""
+    if len(corners) != len(CORNERS):
+        return None
     (west, *_, east), (south, *_, north) = (sorted(axis) for axis in zip(*corners, strict=True))
     crossed = set(itertools.product({west, east}, {south, north}))
-    if not len(corners) == len(crossed) == 4 or set(corners) != crossed:
+    if len(crossed) != len(CORNERS) or set(corners) != crossed:
         return None
     return point((west + east) / 2, (south + north) / 2), tidy(east - west), tidy(north - south)
 

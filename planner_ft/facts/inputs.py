@@ -10,16 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from planner_ft.facts import places, reading
-from planner_ft.facts.geometry import (
-    CLOSE,
-    CORNERS,
-    Area,
-    Ground,
-    Point,
-    rectangle,
-    sector_counts,
-    turned,
-)
+from planner_ft.facts.geometry import CLOSE, Area, Ground, Point, rectangle, sector_counts, turned
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import Position, read_positions, rows_of_sizes
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
@@ -179,8 +170,7 @@ class Input:
         together = {one.start for row in rows_of_sizes(text) for one in row}
         lengths = [one for one in read_numbers(text) if one.unit == "m" or one.start in together]
         for row in rows if not self.is_task else ():
-            corners = [(at.x, at.y) for at in row]
-            area = rectangle(corners) if len(row) == len(CORNERS) else None
+            area = rectangle([(at.x, at.y) for at in row])
             others = {one.value for one in lengths} - {*(area or ())[1:]}
             found += [area] if area and len(others) <= 1 else []
         return tuple(found)
