@@ -211,7 +211,7 @@ class GroundedValues(Values):
             return self.position(grammar, without)
         stated = ((at.x, at.y) for at in written_positions(self._facts.text))
         corners = {corner for area in self.areas for corner in corners_of(*area)}
-        known = [self._vocabulary.home, self._vocabulary.unresolved, *stated]
+        known = [self._vocabulary.unresolved, *stated]
         return grammar.one_of(lark.written(at) for at in known if at not in {*corners, *without})
 
     def text(self, grammar: Grammar, without: Sequence[str] = ()) -> Symbol:

@@ -33,10 +33,11 @@ from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 @dataclass(frozen=True)
 class MissionScript(Script):
-    """A mission plan; `progress` is where it stands behind its tasks so far."""
+    """A mission plan; `progress` is where it stands behind its tasks so far, `places` are theirs."""
 
     most: int = lark.MOST_TASKS
     progress: Progress = START
+    places: tuple[tuple[float, ...], ...] = ()
     begins: ClassVar[str] = "{" + key(MISSION_KEYS[0]) + "["
     opens: ClassVar[str] = '{"title":"'
 
@@ -44,11 +45,12 @@ class MissionScript(Script):
         return f"{literal(self.begins)} ({literal(self.opens)} | {self._closes(grammar)})"
 
     def read(self, before: str) -> MissionScript:
-        progress = START
+        progress, places = START, list[tuple[float, ...]]()
         for entry in json.loads(before.removesuffix(",") + "]}")[MISSION_KEYS[0]]:
             task = self.vocabulary.task[entry["title"]]
             progress = progress.after(task, entry["parameters"], self.vocabulary)
-        return replace(self, progress=progress)
+            places.append(tuple(entry["parameters"].get(task.position_parameter or "", ())))
+        return replace(self, progress=progress, places=tuple(places))
 
     @property
     def known(self) -> Sequence[Task]:
@@ -94,10 +96,12 @@ class MissionScript(Script):
         return search and parameter == target_parameter(owner)
 
     def _places(self, slot: Slot) -> Options:
-        """Where a task is; for an area whose corners are said its middle, with its sides behind."""
+        """Where a task is; for an area whose corners are said, once, its middle, with its sides
+        behind.
+        """
         areas = self.values.areas if slot.owner.pattern == "lawnmower" else ()
         found: Options = []
-        for middle, *sizes in areas:
+        for middle, *sizes in (area for area in areas if area[0] not in self.places):
             sides = (
                 f"{name}={lark.written(size)}" for name, size in zip(SIDES, sizes, strict=True)
             )

@@ -188,6 +188,14 @@ def test_an_area_of_four_corners_is_written_whole(
     assert admitted(embedded, ("BathymetryGridSurvey", given), prompt=command) is possible
 
 
+def test_an_area_of_four_corners_is_surveyed_once_and_not_round_home(embedded: Any) -> None:
+    survey = ("BathymetryGridSurvey", {"center": [50, 40], "width": 60, "length": 40})
+    look = ("SurveyTarget", {"target_position": [80, 60]})
+    assert admitted(embedded, survey, look, prompt=BOX)
+    assert not admitted(embedded, survey, survey, prompt=BOX)
+    assert not admitted(embedded, (survey[0], {**survey[1], "center": [0, 0]}), prompt=BOX)
+
+
 def test_the_logic_of_the_plan_holds_as_well(embedded: Any) -> None:
     go: tuple[str, dict[str, Any]] = ("Transit", {"target_position": [120, -35]})
     assert admitted(
