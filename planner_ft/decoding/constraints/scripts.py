@@ -33,7 +33,7 @@ from planner_ft.vocabulary.replay import START, Progress, target_parameter
 
 @dataclass(frozen=True)
 class MissionScript(Script):
-    """A mission plan; `progress` is where it stands behind its tasks so far, `places` are theirs."""
+    """A mission plan; `progress` is where it stands behind its tasks, `places` are theirs."""
 
     most: int = lark.MOST_TASKS
     progress: Progress = START
