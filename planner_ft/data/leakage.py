@@ -116,6 +116,7 @@ def _shared(texts: Sequence[str], others: Sequence[str]) -> int:
     return sum(text in known for text in texts)
 
 
+@functools.lru_cache(maxsize=1 << 15)
 def _shingles(text: str) -> Shingles:
     return frozenset(itertools.pairwise(["^", *shingle_words(text), "$"]))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from planner_ft.facts.numbers import read_numbers
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_toml
 from planner_ft.vocabulary import Vocabulary
@@ -97,6 +98,19 @@ def _phrase(phrase: str) -> str:
     return GAP.join(parts)
 
 
+def _leads_to_a_value(no: re.Match[str], correction: re.Pattern[str]) -> bool:
+    """Whether words correct what stands before them: "eighty forty, sorry, no, ninety forty"."""
+    rest = no.string[no.end() :].lstrip(" ,")
+    valued = any(number.start == 0 for number in read_numbers(rest))
+    return valued and ends_with(correction, no.string[: no.start()])
+
+
+def ends_with(words: re.Pattern[str], text: str) -> bool:
+    """Whether a text ends with one of some words."""
+    rest = text.rstrip(" :,")
+    return any(match.end() == len(rest) for match in words.finditer(rest))
+
+
 def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
     keys = ("ask", "sensor", "data", "hint")
     yield from (f"unknown key {key!r}" for key in own if key not in keys)
@@ -170,7 +184,9 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
             corrected &= not (last and LAST.match(behind, last.end()))
             told = words["told"].search(text)
             behind_it = exclusion and words["correction"].search(text, exclusion.end())
+            instead = exclusion and _leads_to_a_value(exclusion, words["correction"])
+            behind_it = exclusion if instead else behind_it
             resumed = start + behind_it.end() if behind_it and not told else None
-            excluded = start - 1 if told else excluded
+            excluded = start - 1 if told or instead else excluded
             found.append(Clause(start, end, text, excluded, corrected, resumed))
     return tuple(found)

@@ -23,20 +23,23 @@ CLOSED = ("]", ")")
 FARTHEST = 40  # characters between a name and its coordinates
 _END = re.compile(r"[.!?;]\s+|\n+")
 _WORD = re.compile(r"\s+([^\W_][\w'’-]*)")
-_LINK = re.compile(r"\s+(?:of|with)\s+(?=\w)")
+_LINK = re.compile(r"\s+(?:of|with)\s+(?=\w)", re.IGNORECASE)
 _PLACED = re.compile(
     r"\s*,?\s*(?:(?:is|lying|located|somewhere|right|last seen|centred|centered)\s+)?"
-    r"(?:at|near|around|on|in)?\s*[\[(]?\s*"
+    r"(?:at|near|around|on|in|@)?\s*[\[(]?\s*",
+    re.IGNORECASE,
 )
 _BESIDE = re.compile(
-    r"\s*(?:,?\s*(?:(?:which |that )?(?:is|are|was|stands?|standing|lies?|lying|sits?|floats?"
-    r"|hangs?|rests?|right|last seen|located|anchored|moored)\s+(?:\w+\s+){0,2}?)?"
-    r"(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?(?:at|near|around|in|on|by)\s*"
-    r"|(?=[\[(\d−–-]))[\[(]?\s*"
+    r"\s*(?:,?\s*(?:(?:(?:which|that|she|he|it) )?(?:is|are|was|stands?|standing|lies?|lying|sits?"
+    r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|(?:she|he|it)['’]s)\s+"
+    r"(?:\w+\s+){0,2}?)?(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?"
+    r"(?:at|near|around|in|on|by|@)\s*|(?=[\[(\d−–-]))[\[(]?\s*",
+    re.IGNORECASE,
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""
 _BEHIND = re.compile(
-    r"[\])]?\s*,?\s*(?:there\s+)?(?:is|are|lies?|stands?|sits?|floats?|hangs?|rests?)\s+"
+    r"[\])]?\s*,?\s*(?:there\s+)?(?:is|are|lies?|stands?|sits?|floats?|hangs?|rests?)\s+",
+    re.IGNORECASE,
 )
 """What stands between coordinates and their thing: "at [0, 35] there is a rock"."""
 _STRETCHES = re.compile(
@@ -277,7 +280,11 @@ def _phrase_end(text: str, start: int, spoken: Language) -> int | None:
     for _number in range(LONGEST_NAME):
         word = _WORD.match(text, start)
         ends = (spoken.words["boundary"], spoken.words["determiner"])
-        if not word or word[1] in ("of", "with") or any(one.fullmatch(word[1]) for one in ends):
+        if (
+            not word
+            or word[1].lower() in ("of", "with")
+            or any(one.fullmatch(word[1]) for one in ends)
+        ):
             break
         end = start = word.end()
     return end

@@ -16,12 +16,11 @@ SIGNS = ("minus", "negative", "plus", "comma")
 BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them belongs to
 MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
 """Words of one place, of several in a row, and of a row with commas, that are looked at."""
-_AT = re.compile(
-    r"\b(?:at|to|near|around|from|between|on|position)\s+(?:(?:plus|uh|er)\s+)?$", re.I
-)
+_AT = re.compile(r"\b(?:at|to|near|around|from|between|on|position)\s+(?:plus\s+)?$", re.I)
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
 _COMMA = re.compile(r"\s+comma\s+")
-_BESIDE = re.compile(r"(?:\s*,)?\s+(?:(?:and|then|and then|to)\s+)?")
+_INSTEAD = "|".join(sorted(WORDS["instead"]))
+_BESIDE = re.compile(rf"(?:\s*,)?\s+(?:(?:and|then|and then|to)\s+|(?:(?:{_INSTEAD}),?\s+)+)?")
 _BY = re.compile(r"\s+by\s")
 _TIMES = re.compile(r"\s+times\b")
 _SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)

@@ -14,6 +14,7 @@ from planner_ft.facts.geometry import CLOSE, Area, Ground, Point, rectangle, sec
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import Position, read_positions, rows_of_sizes
 from planner_ft.facts.reading import NOBODY, UNREAD, WAYPOINT, Evidence, is_number, is_place, near
+from planner_ft.facts.spelling import fluent
 from planner_ft.facts.together import Number
 from planner_ft.facts.units import base_of, converted, named
 from planner_ft.facts.words import MULTIPLES, UNITS, WORDS, missing_words, normalised, words
@@ -284,7 +285,7 @@ def read_input(record: dict[str, Any], vocabulary: Vocabulary) -> Input:
 def _read_input(text: str, vocabulary: Vocabulary) -> Input:
     prompt, task, parameters = json.loads(text)
     parameters = (parameters or {}) if task is not None else None
-    return Input(str(prompt or ""), vocabulary, str(task), parameters)
+    return Input(fluent(str(prompt or "")), vocabulary, str(task), parameters)
 
 
 def _point(place: Sequence[float]) -> Point:

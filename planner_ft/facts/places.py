@@ -52,7 +52,8 @@ _COORDINATE_UNIT = re.compile(
 """The unit of the coordinates in a sentence, which are metres elsewhere."""
 _OPENED = re.compile(r"[\[(]\s*$")
 _AT = re.compile(
-    r"\b(?:at|to|near|around|from|on|cent(?:re|er)|position|coordinates|@)\W{0,3}$", re.IGNORECASE
+    r"(?:\b(?:at|to|near|around|from|on|cent(?:re|er)|pos|position|coordinates)|@)\W{0,3}$",
+    re.IGNORECASE,
 )
 _AXES = re.compile(
     r"(?<![a-z])y\s?(?:[=:]|equals|is)?\s?(?:[-−–]|minus )?\d"

@@ -136,15 +136,15 @@ def corrections(word: str, most: int = 6) -> tuple[str, ...]:
     lowered, known = word.lower(), known_words()
     if len(lowered) < 3 or lowered in known:
         return ()
-    found = _near(lowered, 1 if len(lowered) < 6 else 2)
+    found = near_words(lowered, 1 if len(lowered) < 6 else 2)
     if not set(lowered) & set("aeiou"):
         found += [(1, -known[other], other) for other in known if _shortens(lowered, other)]
     if not found and len(lowered) == 5:
-        found = [item for item in _near(lowered, 2) if item[2][0] == lowered[0]]
+        found = [item for item in near_words(lowered, 2) if item[2][0] == lowered[0]]
     return tuple(dict.fromkeys(other for _distance, _count, other in sorted(found)))[:most]
 
 
-def _near(word: str, limit: int) -> list[tuple[int, int, str]]:
+def near_words(word: str, limit: int) -> list[tuple[int, int, str]]:
     """(edits, -frequency, known word) of the known words that `limit` edits make of `word`."""
     known = known_words()
     found = process.extract(

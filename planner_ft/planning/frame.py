@@ -15,6 +15,7 @@ from typing import Any
 
 from planner_ft.facts import Geographic, Span
 from planner_ft.facts.geographic import read_geographic
+from planner_ft.facts.spelling import fluent
 from planner_ft.support.geodesy import NEAREST_POLE, Origin
 from planner_ft.vocabulary import Vocabulary
 
@@ -55,12 +56,14 @@ class Frame:
 
     @functools.cached_property
     def spoken(self) -> str:
-        """The command with every swap made, and the commas of "x = 12,5 and y = 40,5" as points."""
+        """The command with every swap made, the commas of "x = 12,5 and y = 40,5" as points, and
+        blanks for "uh".
+        """
         parts, done = [], 0
         for swap in self.swaps:
             parts += [self.command[done : swap.start], swap.written]
             done = swap.end
-        text = "".join([*parts, self.command[done:]])
+        text = fluent("".join([*parts, self.command[done:]]))
         return COMMAS.sub(lambda match: match[0].replace(",", "."), text)
 
     def span(self, start: int, end: int) -> Span:

@@ -47,7 +47,8 @@ def limits_in(texts: list[str], limits: Limits) -> list[Limit]:
 
 def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) -> dict[str, Any]:
     """The mission plan with its limits in the prompts of all tasks, and those that stand in one
-    prompt alone among its constraints. A time of return that the command does not say is left out,
+    prompt alone among its constraints; one of some tasks that the prompt of another has holds for
+    all. A time of return that the command does not say is left out,
     and one that is a duration is a time to be back within. An area that has a corner twice is the
     one row of the command that has all of its corners.
     """
@@ -58,8 +59,11 @@ def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) 
         whole = (_whole(text, rows, limits, write) for text in texts)
         return list(_kept(whole, command, limits, write))
 
-    constraints = list(dict.fromkeys(kept(plan.get("constraints", ()), sentence)))
+    constraints = kept(plan.get("constraints", ()), sentence)
     prompts = [kept(SENTENCE.split(task["task_prompt"]), prompt_sentence) for task in plan["tasks"]]
+    titles = [task["title"] for task in plan["tasks"]]
+    told = [*zip(titles, (limits_in(own, limits) for own in prompts), strict=True)]
+    constraints = list(dict.fromkeys(_for_all(text, told, limits) for text in constraints))
     stated = limits_in(constraints, limits)
     for limit in limits_in([text for texts in prompts for text in texts], limits):
         if limit.kind in GENERAL and limit not in stated:
@@ -71,9 +75,18 @@ def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) 
         lacking = (one for one in stated if one not in own)
         held = (one for one in lacking if holds_for(one, task["title"], plan["tasks"]))
         added = dict.fromkeys(prompt_sentence(one.kind, one.values, limits) for one in held)
-        told = [*texts, *(text for text in added if text not in texts)]
-        tasks.append({**task, "task_prompt": " ".join(told) or task["task_prompt"]})
+        texts = [*texts, *(text for text in added if text not in texts)]
+        tasks.append({**task, "task_prompt": " ".join(texts) or task["task_prompt"]})
     return {**plan, "tasks": tasks, "constraints": constraints}
+
+
+def _for_all(text: str, told: Iterable[tuple[str, list[Limit]]], limits: Limits) -> str:
+    """The sentence of a limit; one that tasks of other titles are `told` holds for all."""
+    limit = read_limit(text, limits)
+    if limit is None or not limit.titles or limit.kind not in GENERAL:
+        return text
+    others = any(limit in own and not limit.holds_for(title) for title, own in told)
+    return sentence(limit.kind, limit.values, limits) if others else text
 
 
 def with_return(plan: Plan, vocabulary: Vocabulary) -> Plan:

@@ -9,6 +9,7 @@ template, base models a plain form that ends with their end-of-text token.
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner_ft.data.task.working import working_of
 from planner_ft.facts.places import with_brackets
+from planner_ft.facts.spelling import fluent, spelt
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, read_text, write_json
 from planner_ft.vocabulary import Vocabulary
@@ -31,8 +33,11 @@ Record = dict[str, Any]
 """A sample: its prompt, the task and parameters of a task, the `expected` plan."""
 PLAIN_FORM = "{system}\n\n### Input\n{user}\n\n### Plan\n"
 """The prompt of a model without a chat template."""
-PROMPT_VERSION = 4
+PROMPT_VERSION = 5
 """Counts up with every change of the rendered text: predictions are not reused across it."""
+FEWEST, SHOUTED = 4, 0.8
+"""Words of a text that is typed in capitals, and the part of them that begin with one."""
+_WORD, _BLANKS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[^\S\n]+")
 PROBE = "\x02probe\x03"
 TODAY = "26 Jul 2024"
 """The date in the system message of Llama 3 templates, which would write today's."""
@@ -53,11 +58,23 @@ def user_text(level: Level, record: Record, vocabulary: Vocabulary) -> str:
     """The agent's input: the command with its positions in the form of plans ("x=4, y=9" as
     "[4, 9]"), or a task's title, parameters and prompt on three lines.
     """
+    prompt = _plainly(str(record["prompt"]))
     if level == "mission":
-        return with_brackets(str(record["prompt"]))
+        return with_brackets(prompt)
     task = vocabulary.task.get(record["task"])
     parameters = canonical_parameters(record.get("parameters", {}), task)
-    return f"{record['task']}\n{compact_json(parameters)}\n{record['prompt']}"
+    return f"{record['task']}\n{compact_json(parameters)}\n{prompt}"
+
+
+def _plainly(text: str) -> str:
+    """The text with single blanks, none before a comma; without capitals where most of its words
+    begin with one, and without slips.
+    """
+    text = _BLANKS.sub(" ", fluent(text)).replace(" ,", ",")
+    words = _WORD.findall(text)
+    capitals = sum(word[0].isupper() for word in words)
+    loud = len(words) >= FEWEST and capitals > SHOUTED * len(words)
+    return spelt(text.lower() if loud else text)
 
 
 def completion_text(level: Level, plan: dict[str, Any], vocabulary: Vocabulary) -> str:

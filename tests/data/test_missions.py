@@ -25,6 +25,8 @@ from planner_ft.vocabulary.plans import plan_names, plan_problems, value_problem
 
 USV, DRONE = load_vocabulary(), load_vocabulary("inspection_drone")
 VEHICLES = [USV, DRONE]
+READ = 12
+"""Of so many lines one is read again, by the label rules."""
 
 
 def template(command, plan, **remarks):
@@ -75,7 +77,7 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
         text, expected = command.text, command.expected
         assert text, line.where
         assert plan_problems("mission", expected, vehicle, strict=True) == [], line.where
-        if number % 4:
+        if number % READ:
             continue
         problems = rule_problems(expected, vehicle, plain(text))
         values = [
@@ -86,9 +88,9 @@ def test_every_line_draws_commands_that_follow_the_label_rules(vehicle):
         left = [item for item in values if item.split(", ")[1].split(":")[0] not in literal]
         unread += [f"{line.where}: {plain(text)}: {item}" for item in left]
         exceptions += len(problems) > len(values)
-    assert exceptions < 0.04 * len(lines) / 4 + 1
+    assert exceptions < 0.04 * len(lines) / READ + 1
     # "x 6, y 91 and half as long": a text may be read in another way.
-    assert len(unread) < 0.002 * len(lines), unread
+    assert len(unread) < 0.008 * len(lines) / READ + 1, unread
 
 
 @pytest.mark.parametrize("vehicle", VEHICLES, ids=lambda vehicle: vehicle.name)

@@ -62,6 +62,17 @@ def test_a_limit_of_one_task_goes_into_its_prompt() -> None:
     assert "no faster" in alone["tasks"][0]["task_prompt"]
 
 
+def test_a_limit_of_one_task_that_others_are_told_holds_for_all() -> None:
+    text = "The vehicle keeps at least 12 m from every obstacle during KeepStation."
+    kept = "Keep at least 12 m from every obstacle."
+    titles = ("Transit", "KeepStation", "Diagnostics")
+    tasks = [{"title": title, "task_prompt": f"Go. {kept}"} for title in titles[:2]]
+    told = with_limits({"tasks": tasks, "constraints": [text]}, USV)
+    assert told["constraints"] == ["The vehicle keeps at least 12 m from every obstacle."]
+    alone = [{"title": titles[2], "task_prompt": "Go."}, tasks[1]]
+    assert with_limits({"tasks": alone, "constraints": [text]}, USV)["constraints"] == [text]
+
+
 def test_a_filter_that_is_there_is_kept_when_it_is_as_strict() -> None:
     moving = transit(100, 50)
     strict = {"name": "ObstacleAvoidance", "parameters": {"min_distance": 15}}

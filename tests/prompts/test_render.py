@@ -158,3 +158,19 @@ def test_the_prompt_is_tokenised_as_the_whole_text_would_be(tokenizer: Any) -> N
     assert render_prompt(
         "mission", MISSION, tokenizer, VOCABULARY, with_vocabulary=False
     ) == tokenizer.encode(text, add_special_tokens=False)
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "CIRCLE THE MOORING BUOY AT [40, 12] AND COME HOME",
+        "Circle The Mooring Buoy At [40, 12] And Come Home",
+        "circle  the mooring\tbuoy at [40 , 12] and come home",
+        "um circle the moorign buoy at, uh, [40, 12] and come home",
+    ],
+)
+def test_a_command_is_told_plainly(typed: str) -> None:
+    told = user_text("mission", {"prompt": typed}, VOCABULARY).strip().replace("at, [", "at [")
+    assert told == "circle the mooring buoy at [40, 12] and come home"
+    named = "Find MV Alina and Durius Two"
+    assert user_text("mission", {"prompt": named}, VOCABULARY) == named

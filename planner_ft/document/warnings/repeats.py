@@ -15,6 +15,8 @@ SENTENCE = re.compile(r"^|[.!?;]\s")
 WAITING = ("hold", "follow", "drift", "visual")
 """Patterns of tasks that can go on for as long as nobody says otherwise."""
 EVERY = re.compile(r"\b(?:every|each) $", re.IGNORECASE)
+ONWARD = re.compile(r"(?:[\s,;/\])\[(>→=-]|and|then|back|to)*", re.IGNORECASE)
+"""What stands between the positions of a way: "50,0 -> 50,90 and back to 50,0"."""
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
 
@@ -98,7 +100,7 @@ def repeats(case: Case) -> Iterator[Warning]:
             ahead = SENTENCE.search(text, end)
             near_by = [
                 row
-                for row in rows_of(text, case.positions)
+                for row in rows_of(text, case.positions, ONWARD)
                 if len(row) > 1
                 and sentence <= row[0].start < (ahead.start() if ahead else len(text))
                 and (not places or set(row) & set(places))

@@ -9,7 +9,7 @@ import itertools
 import re
 from collections.abc import Iterator
 
-from planner_ft.document.language import Clause
+from planner_ft.document.language import Clause, ends_with
 from planner_ft.document.warnings.case import (
     LONGER,
     Case,
@@ -174,11 +174,11 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         replacing = case.words["replaced"]
         instead = clause and replacing.match(clause.text.strip(" ,"))
         last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
-        behind = _ends_with(replacing, before) or number in last_counted
+        behind = ends_with(replacing, before) or number in last_counted
         behind = behind or _shots(number, case) or number.start in behind_no
         behind = behind or case.words["extent"].match(case.text[number.end :].lstrip()) is not None
         if last and number.value >= 2:
-            behind = behind or _ends_with(case.words["measured"], before)
+            behind = behind or ends_with(case.words["measured"], before)
             behind = behind or (number.value > HOURS and AT.search(before) is not None)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if number.value < 0:
@@ -300,7 +300,7 @@ def _is_kept(clause: Clause, case: Case) -> bool:
         for one in apart
         if one.unit in ("m", "s", "m/s")
         or AXIS.search(text[: one.start])
-        or (one.unit is None and _ends_with(than, text[clause.start : one.start]))
+        or (one.unit is None and ends_with(than, text[clause.start : one.start]))
     ]
     by_time = case.words["by_time"].search(clause.text)
     behind = clause.start + by_time.end() if by_time else len(text)
@@ -318,9 +318,3 @@ def _is_kept(clause: Clause, case: Case) -> bool:
     whole = case.words["whole_limit"].search(clause.text)
     known = plan.limited if whole else [*plan.limited, *plan.numbers]
     return all(any(near(one.value, other) for other in known) for one in said)
-
-
-def _ends_with(words: re.Pattern[str], text: str) -> bool:
-    """Whether a text ends with one of some words."""
-    rest = text.rstrip(" :,")
-    return any(match.end() == len(rest) for match in words.finditer(rest))

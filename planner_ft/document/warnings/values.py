@@ -20,12 +20,15 @@ from planner_ft.facts import (
 )
 from planner_ft.facts.inputs import read_input
 from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import is_course, written_positions
 from planner_ft.facts.words import edit_distance, missing_words, unknown_words, words
 from planner_ft.planning.shapes import SIZE, SPACING, pass_ends, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 
 EDITS = 2  # edits by which a word of a task prompt may differ from one of the command
+ANGLE = re.compile(r"\b(?:arc|through|angle|by|to|of|\w+ing)\W{1,3}$", re.IGNORECASE)
+"""Stands before the degrees of a turn: "through 270"."""
 BARE = re.compile(r"[-−–]?\d+(?:\.\d+)?")  # a number without a unit
 
 
@@ -41,12 +44,17 @@ def unsaid(case: Case) -> Iterator[Warning]:
     said = case.source.facts
     timed = any(number.unit == "s" for number in said.numbers("s"))
     for task in case.tasks:
-        known, prompt = case.vocabulary.task[task["title"]].by_name, read(task["task_prompt"])
+        definition = case.vocabulary.task[task["title"]]
+        known, prompt = definition.by_name, read(task["task_prompt"])
+        # How far round something the vehicle goes.
+        turns = [one for one in known if known[one].unit == "deg" and definition.pattern == "orbit"]
         for name, source in task.get("sources", {}).items():
             if source["kind"] not in ("model", "command") or name not in known:
                 continue
             value, parameter = task["parameters"][name], known[name]
             evidence, shown = said.evidence(value, parameter), _shown(value, parameter)
+            bare = not timed and parameter.unit == "s" and _has_no_unit(evidence, said)
+            bare = bare or (name in turns and _is_no_angle(evidence, said))
             about = {"task": task, "parameter": name, "name": name, "value": shown}
             if source["kind"] == "model":
                 if evidence.given is False:
@@ -55,7 +63,7 @@ def unsaid(case: Case) -> Iterator[Warning]:
                 continue
             elif is_number(value) and _is_coordinate(evidence, said, case.positions):
                 yield warning("value-not-said", "coordinate", **about)
-            elif parameter.unit == "s" and not timed and _has_no_unit(evidence, said):
+            elif bare:
                 yield warning("value-not-said", "unit", **about)
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
@@ -81,7 +89,12 @@ def unsaid_limits(case: Case) -> Iterator[Warning]:
     ruled_out = [case.words["exclusion"], case.words["limit"]]
     ruled_out += [data.said for data in case.spoken.data if data.ruled_out]
     none = not any(words.search(case.command) for words in ruled_out)
-    spoken, said = case.source.facts.text, [number.value for number in case.numbers]
+    spoken = case.source.facts.text
+    places = [(at.start, at.end) for at in written_positions(case.text)]
+    apart = (
+        one for one in case.numbers if not any(start <= one.start < end for start, end in places)
+    )
+    said = [number.value for number in apart]
     for limit in case.limits:
         own = [value for value in limit["values"].values() if is_number(value)]
         unsaid = any(not any(near(value, one) for one in said) for value in own)
@@ -186,11 +199,18 @@ def _is_coordinate(evidence: Evidence, said: Facts, places: Sequence[Position]) 
     )
 
 
+def _is_no_angle(evidence: Evidence, said: Facts) -> bool:
+    """Whether a value stands in the command as a number that nothing tells to be an angle."""
+    spans = [spans[0] for spans in evidence.mentions]
+    led = (ANGLE.search(said.text, 0, start) or is_course(said.text, start) for start, _ in spans)
+    return _has_no_unit(evidence, said) and not any(led)
+
+
 def _has_no_unit(evidence: Evidence, said: Facts) -> bool:
     """Whether a value stands in the command as a number without a unit."""
     spans = [(spans[0][0], spans[-1][1]) for spans in evidence.mentions]
     numbers = [read_numbers(said.text[start:end]) for start, end in spans]
-    bare = [all(one.unit is None for one in found) for found in numbers]
+    bare = [bool(found) and all(one.unit is None for one in found) for found in numbers]
     return evidence.kind == "stated" and bool(bare) and all(bare)
 
 

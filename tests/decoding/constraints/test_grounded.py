@@ -287,7 +287,7 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
     factory = make_factory(embedded, level, vocabulary, "grounded")
     curated = [*read_jsonl(CURATED / "train.jsonl"), *read_jsonl(CURATED / "validation.jsonl")]
     drawn = list(
-        itertools.islice(sample_missions(9), 600)
+        itertools.islice(sample_missions(9), 250)
         if level == "mission"
         else sample_tasks(vocabulary, 9, 200, "train")
     )

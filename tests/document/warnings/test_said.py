@@ -51,6 +51,8 @@ def look(sectors: int) -> dict[str, Any]:
 SWEEP = task("BoatLandingClearanceSweep", {}, [step("StationKeep", {})])
 REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
+ARROWS = "Shuttle 1,0 -> 9,0 and back to 1,0, THREE times in all."
+NINETY = "go to eighty forty sorry no one hundred eighty forty and wait two minutes"
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
 BACKS = [to(1, 1), to(9, -34)]
@@ -122,6 +124,11 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Run from 1,0 to 9,0 two times.", [to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
         (SHUTTLE, [to(1, 0), to(9, 0), to(1, 0), to(9, 0), to(1, 0)], (), "repeat-lost"),
         (SHUTTLE, [to(1, 0), *[to(9, 0), to(1, 0)] * 3], (), None),
+        (ARROWS, [to(1, 0), *[to(9, 0), to(1, 0)] * 2], (), "repeat-lost"),
+        (ARROWS, [to(1, 0), *[to(9, 0), to(1, 0)] * 3], (), None),
+        ("Go to 9,9, speed not more two meter second.", [to(9, 9)], (), "limit-lost"),
+        (NINETY, [to(180, 40), hold(120)], (), None),
+        (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
         (
             "Twice up and down between 1,0 and 9,0.",
             [to(1, 0), to(9, 0), to(1, 0)],

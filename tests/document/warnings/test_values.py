@@ -19,6 +19,28 @@ def to(*steps: dict[str, Any], prompt: str = "Go to [30, 40].") -> dict[str, Any
     return task("Transit", {"target_position": [30, 40]}, [*steps], prompt)
 
 
+@pytest.mark.parametrize(
+    ("command", "arc", "count"),
+    [
+        ("Once round the barge at [9, 9] at 8 m, wait, too close, eighteen.", 18, 1),
+        ("Round the barge at [9, 9] through 180 at 8 m.", 180, 0),
+        ("Round the barge at [9, 9], 180 degrees, at 8 m.", 180, 0),
+        ("Half round the barge at [9, 9] at 8 m.", 180, 0),
+    ],
+)
+def test_a_turn_is_no_bare_number(command: str, arc: float, count: int) -> None:
+    orbit = task("PerformOrbit", {"center": [9, 9], "radius": 8, "arc": arc}, None)
+    assert len(texts(document([orbit], command=command), "value-not-said")) == count
+
+
+def test_a_coordinate_is_no_distance_to_keep() -> None:
+    limit = "The vehicle keeps at least 150 m from every obstacle."
+    for command, count in (("Go from 150,0 to 30,40.", 1), ("Keep 150 m off all, go 150,0.", 0)):
+        plan = document([to(GO)], command=command, constraints=[limit])
+        found = [one for one in texts(plan, "value-not-said") if "150 m from every" in one]
+        assert len(found) == count
+
+
 GO = step("GoToXY", {"x": 30, "y": 40})
 COMMAND = "Go to [30, 40]."
 
