@@ -102,7 +102,8 @@ def _leads_to_a_value(no: re.Match[str], correction: re.Pattern[str]) -> bool:
     """Whether words correct what stands before them: "eighty forty, sorry, no, ninety forty"."""
     rest = no.string[no.end() :].lstrip(" ,")
     valued = any(number.start == 0 for number in read_numbers(rest))
-    return valued and ends_with(correction, no.string[: no.start()])
+    plain = no[0].casefold() == "no"
+    return plain and valued and ends_with(correction, no.string[: no.start()])
 
 
 def ends_with(words: re.Pattern[str], text: str) -> bool:

@@ -5,10 +5,11 @@ fifty thirty comma fifty" are two.
 import functools
 import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from planner_ft.facts.numbers import read_all, read_rows
+from planner_ft.facts.numerals import AND, Token
 from planner_ft.facts.together import Number
 from planner_ft.facts.words import SCALES, SMALL, WORDS
 
@@ -46,15 +47,17 @@ def dictated_pairs(text: str) -> tuple[Pair, ...]:
     and a third one with a unit, of a size or a count ("at one ten eighty fifty metres off"), and
     those of a row ("twenty ten then forty ten", "ten comma fifty thirty comma fifty").
     """
-    found: list[Pair] = []
+    found, known = list[Pair](), set[str]()
     for group in _groups(text):
         # "One hundred thirty" can be one number or two; in "ten fifty and one hundred thirty" two.
         sure = len(group) > 1 and any(run.is_no_number for run in group)
         for run in group:
             row = _row(text, run) if sure or len(run.parts) > 2 else []
             follows = bool(found) and _BESIDE.fullmatch(text, found[-1][3], run.start)
-            at = follows or _AT.search(text, max(0, run.start - 24), run.start)
+            words = text[run.start : run.end].casefold()
+            at = follows or words in known or _AT.search(text, max(0, run.start - 24), run.start)
             found += row or (_place(text, run) if at and len(run.parts) < 3 else [])
+            known |= {words} if found and found[-1][2:] == (run.start, run.end) else set()
     return tuple(found)
 
 
@@ -67,10 +70,13 @@ def _place(text: str, run: Run) -> list[Pair]:
         return []
     paths = list(_paths(text, run.numbers, start, end))
     times = _TIMES.match(text, end) is not None
-    whole = [path for path in paths if len(path) > 1 and len(run.parts) == 2 and not times]
+    whole = list(_at_comma(text, run)) if len(run.parts) == 2 and not times else []
     pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
     if len(pairs) == 1 and not any(path[1].unit or path[1].counts for path in whole):
         return list(pairs)  # "one ten comma minus sixty / fifteen"
+    alone = not text[end:].lstrip().startswith(",")
+    if alone and len(paths) == 2 and all(number.said in range(10) for number in paths[1]):
+        paths = paths[1:]  # "dock at five five"
     counted = times or any(path[-1].counts for path in paths)
     measured = any(path[-1].unit for path in paths) or _BY.match(text, end) is not None
     more = measured or counted
@@ -82,6 +88,18 @@ def _place(text: str, run: Run) -> list[Pair]:
         whole = [path for path in whole if plain(text, path)] or whole
     pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
     return list(pairs) if len(pairs) == 1 else []
+
+
+def _at_comma(text: str, run: Run) -> Iterator[list[Number]]:
+    """The ways to read a row of words with one comma: a number before it, and behind it one that is
+    all of it, or several.
+    """
+    before, behind = run.parts
+    firsts = list(_paths(text, run.numbers, *before, 1))
+    seconds = list(_paths(text, run.numbers, *behind, 2))
+    plain = [path for path in seconds if len(path) == 1 and not path[0].unit]
+    for first in firsts:
+        yield from (first + second for second in plain or seconds)
 
 
 def _row(text: str, run: Run) -> list[Pair]:
@@ -131,9 +149,12 @@ def _groups(text: str) -> Iterator[list[Run]]:
 def _runs(text: str) -> Iterator[tuple[int, int]]:
     """Where words of numbers stand in a row: two words at least, and no figures."""
     row: list[tuple[int, int]] = []
-    for word, start, end in (*read_rows(text)[0].tokens, ("", len(text), len(text))):
+    tokens = [*read_rows(text)[0].tokens, Token("", len(text), len(text))]
+    for place, (word, start, end) in enumerate(tokens):
         numeral = word in SMALL or word in SCALES
-        if numeral or (word in SIGNS and (row or word in SIGNS[:2])):
+        comma = any(text[slice(*span)] == "comma" for span in row)
+        joined = bool(row) and word in AND and _goes_on(tokens, place, behind_comma=comma)
+        if numeral or joined or (word in SIGNS and (row or word in SIGNS[:2])):
             row.append((start, end))
             continue
         if word in WORDS["behind_one"] and len(row) > 2 and text[slice(*row[-1])].lower() == "one":
@@ -141,6 +162,17 @@ def _runs(text: str) -> Iterator[tuple[int, int]]:
         if 1 < len(row) <= LONGEST_ROW:
             yield row[0][0], row[-1][1]
         row = []
+
+
+def _goes_on(tokens: Sequence[Token], place: int, *, behind_comma: bool) -> bool:
+    """Whether the "and" at a place is part of a number: "one hundred and six", but not in "ten comma
+    one hundred and six comma forty", which are two positions.
+    """
+    numeral = [*SMALL, *SCALES]
+    ahead = itertools.takewhile(lambda one: one.word in numeral, tokens[place + 1 :])
+    count = sum(1 for _ in ahead)
+    other = behind_comma and tokens[place + 1 + count].word == "comma"
+    return tokens[place - 1].word in SCALES and count > 0 and not other
 
 
 def _has_no_lone_digit(text: str, path: list[Number]) -> bool:

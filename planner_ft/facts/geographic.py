@@ -16,6 +16,7 @@ from planner_ft.facts.numbers import read_numbers
 from planner_ft.support.geodesy import from_utm
 
 DIGITS_OF_DEGREES = 4  # decimals from which a bare number is rather degrees than metres
+FINE = 2  # decimals of a latitude and a longitude with their hemispheres in words
 BLANK = "|"  # stands in place of what was read already
 _MINUS = ("-", "−", "–")
 
@@ -96,8 +97,13 @@ def _read(text: str) -> tuple[Geographic, ...]:
     sure = [match for match in known if _is_degrees(match)]
     for one, two in itertools.pairwise(known):
         # "54.3 N, 10.1 E": metres have no such letters at decimals.
-        lettered = (_has_letter(match) and "." in (match["degrees"] or "") for match in (one, two))
-        if all(lettered) and _degrees(one)[1] != _degrees(two)[1]:
+        pair = one, two
+        lettered = all(_has_letter(match) and "." in (match["degrees"] or "") for match in pair)
+        # "55.32 north 10.14 east": who speaks of metres says no centimetres, and east first.
+        fine = all(_has_side(match) and _decimals(match) >= FINE for match in pair)
+        fine &= not text.startswith(" of ", two.end())
+        axes = [_degrees(match)[1] for match in pair]
+        if (lettered and axes[0] != axes[1]) or (fine and axes == ["lat", "lon"]):
             sure += [match for match in (one, two) if match not in sure]
     # "48.123N 7.5E": what stands beside degrees with a hemisphere of its own is degrees.
     pairs = [(one, two) for one, two in itertools.pairwise(known) if {one, two} & {*sure}]
@@ -148,7 +154,7 @@ def lone_coordinates(text: str) -> list[tuple[int, int]]:
 
 
 def _is_degrees(match: re.Match[str]) -> bool:
-    decimals = len((match["degrees"] or "").replace(",", ".").partition(".")[2])
+    decimals = _decimals(match)
     return bool(
         match["word"]
         or match["packed"]
@@ -159,6 +165,10 @@ def _is_degrees(match: re.Match[str]) -> bool:
         or (_has_letter(match) and decimals >= 2)
         or (_has_side(match) and decimals >= DIGITS_OF_DEGREES - 1)
     )
+
+
+def _decimals(match: re.Match[str]) -> int:
+    return len((match["degrees"] or "").replace(",", ".").partition(".")[2])
 
 
 def _has_side(match: re.Match[str]) -> bool:

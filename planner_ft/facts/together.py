@@ -10,7 +10,7 @@ WRITTEN, BARE, IN_PAIR, AS_BEFORE, REREAD = range(5)
 """How plainly: with unit, without, half of a pair, in another's unit, in another reading."""
 FOOT = 0.3048
 NEIGHBOURS = 5  # characters that "and" with its blanks takes between two parts of one value
-BY = re.compile(r"\s?(?:by|x|×|\*)\s?", re.IGNORECASE)
+BY = re.compile(r"\s?(?:by|x|×|\*|(?:wide|broad|long|across),?\s(?:by|x|and))\s?", re.IGNORECASE)
 
 
 @dataclass(frozen=True)

@@ -223,7 +223,7 @@ GEOGRAPHIC = """
     54.3 N 10.1 E => 54.3,10.1 <54.3 N 10.1 E>
     54 N 10 E =>
     54.3 N and 12 m E =>
-    54.32 north 10.14 east =>
+    54.32 north 10.14 east => 54.32,10.14 <54.32 north 10.14 east>
     N 54.32 E 10.14 => 54.32,10.14 <N 54.32 E 10.14>
     N 36 07.820 W 005 21.310 => 36.13033,-5.355167 <N 36 07.820 W 005 21.310>
     36º 31' 55,2'' N; 6º 17' 10,5'' W => 36.532,-6.28625 <36º 31' 55,2'' N; 6º 17' 10,5'' W>
@@ -470,6 +470,13 @@ def test_dictated_degrees_are_geographic(text: str, latitude: float, longitude: 
     assert read(text).positions == ()
 
 
+def test_two_decimals_with_both_sides_are_degrees() -> None:
+    said = "go to fifty five point three two north ten point one four east and hold"
+    (place,) = read(said).geographic
+    assert (place.latitude, place.longitude) == (55.32, 10.14)
+    assert read("go 12.50 east 43.25 north and hold").geographic == ()
+
+
 def test_three_decimals_with_a_side_are_degrees() -> None:
     (place,) = read("go to 43.102 south 147.203 east and hold").geographic
     assert (place.latitude, place.longitude) == (-43.102, 147.203)
@@ -516,6 +523,11 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("at one hundred comma thirty two times", (100, 30)),
         ("at one ten comma minus sixty fifteen no sorry fifty metres", (110, -60)),
         ("to two hundred zero and hold", (200, 0)),
+        ("at eighty eight comma fourteen one hundred and ten metres along", (88, 14)),
+        ("at seventy seven comma thirty one starboard side", (77, 31)),
+        ("at minus twenty comma one hundred and six that's all", (-20, 106)),
+        ("to two hundred and fifty comma one hundred and ten", (250, 110)),
+        ("dock at five five please", (5, 5)),
         ("to fifty comma one twenty four times", (50, 120)),
         ("at minus fifty comma seventy one full circle", (-50, 70)),
     ],
@@ -532,6 +544,8 @@ def test_dictated_coordinates_are_those_of_one_place(text: str, place: tuple[int
     [
         "turn to one hundred ninety",
         "at seventy minus twenty eight sectors",
+        "dock at five five metres off",
+        "to niner zero, minus two five, break",
         "at ten comma twenty times",
         "ten comma five thirty comma twenty metres",
     ],

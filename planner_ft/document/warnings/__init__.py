@@ -76,7 +76,14 @@ CHECKS: tuple[Check, ...] = (
     *(route.performed, places.passed_elsewhere),
     *(places.unmoved, places.round_home, repeats.intervals, repeats.endless, repeats.to_and_fro),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
-    *(said.crossed, said.clock_times, places.geographic, places.rows, places.uneven_rows),
+    *(
+        said.sides,
+        said.crossed,
+        said.clock_times,
+        places.geographic,
+        places.rows,
+        places.uneven_rows,
+    ),
     *(
         places.unvisited,
         places.positions,

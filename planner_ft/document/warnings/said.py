@@ -201,6 +201,19 @@ def _sizes(case: Case) -> Iterator[list[Number]]:
             yield row
 
 
+def sides(case: Case) -> Iterator[Warning]:
+    """Directions that take the place of another, of which the plan has nothing: "the south face,
+    sorry, NORTH face".
+    """
+    for one, other in itertools.pairwise(read_bearings(case.text)):
+        between = case.text[one.end : other.start]
+        corrected = case.words["correction"].search(between) or NO.search(between)
+        if corrected and len(between) <= CORRECTED and not near(one.value, other.value):
+            words = case.text[other.start : other.end]
+            if words.casefold() not in case.plan.words and not case.plan.says(other.value):
+                yield case.lost(other.start, other.end)
+
+
 def crossed(case: Case) -> Iterator[Warning]:
     """A line such as "x = 100" on both sides of which the plan goes: it may be a limit."""
     paired = [(place.start, place.end) for place in read_positions(case.text)]
@@ -315,6 +328,9 @@ def _is_kept(clause: Clause, case: Case) -> bool:
             told = plan.polygons or case.words["away"].search(plan.texts)
             return plan.speaks_of(thing) if LONGER.search(thing) else bool(told)
         return all(any(same_place(place, at) for at in limited) for place in inside)
+    strict = case.words["strict"].search(clause.text)
+    if strict and not (numbers or inside or away):
+        return plan.speaks_of(case.words["boundary"].sub("", clause.text[strict.end() :]))
     whole = case.words["whole_limit"].search(clause.text)
     known = plan.limited if whole else [*plan.limited, *plan.numbers]
     return all(any(near(one.value, other) for other in known) for one in said)

@@ -98,12 +98,27 @@ def unsaid_limits(case: Case) -> Iterator[Warning]:
     for limit in case.limits:
         own = [value for value in limit["values"].values() if is_number(value)]
         unsaid = any(not any(near(value, one) for one in said) for value in own)
+        unsaid |= limit["kind"] == "distance" and _keeps_away(own, case)
         thing = LONGER.findall(str(limit["values"].get("object", "")).split(" at [")[0])
         unknown = [one for one in thing if missing_words(spoken, one, misspelt=True)]
         unsaid = unsaid or (bool(thing) and unknown == thing)
         if unsaid or (limit["kind"] == "no_recording" and none):
             text = limit["text"].rstrip(".")
             yield warning("value-not-said", "limit", about=text.casefold(), limit=text)
+
+
+def _keeps_away(values: Sequence[float], case: Case) -> bool:
+    """Whether clauses that keep the vehicle away from something, and no others, say a value: "don't
+    get within 30 m of him" is no way from home.
+    """
+    said = [one.start for one in case.numbers if any(near(one.value, value) for value in values)]
+    clauses = [clause for place in said if (clause := case.clause_at(place))]
+    away = (case.words["away"].search(one.text) for one in clauses)
+    return (
+        bool(clauses)
+        and all(away)
+        and not any(case.words["home"].search(clause.text) for clause in clauses)
+    )
 
 
 def unsought(case: Case) -> Iterator[Warning]:

@@ -33,6 +33,10 @@ def drift() -> dict[str, Any]:
     return task("DriftAudit", {"duration": 60}, [step("DriftWithCurrent", {"time": 60})])
 
 
+def along(side: str) -> dict[str, Any]:
+    return task("ParallelStructurePass", {"side_id": side, "length": 50, "distance": 5}, None)
+
+
 def at(x: float) -> list[dict[str, Any]]:
     return [to(x, 9), hold(60)]
 
@@ -53,6 +57,7 @@ REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 ARROWS = "Shuttle 1,0 -> 9,0 and back to 1,0, THREE times in all."
 NINETY = "go to eighty forty sorry no one hundred eighty forty and wait two minutes"
+BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
 BACKS = [to(1, 1), to(9, -34)]
@@ -128,6 +133,17 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (ARROWS, [to(1, 0), *[to(9, 0), to(1, 0)] * 3], (), None),
         ("Go to 9,9, speed not more two meter second.", [to(9, 9)], (), "limit-lost"),
         (NINETY, [to(180, 40), hold(120)], (), None),
+        (BY_WORDS, [grid(30, 5)], (), "value-lost"),
+        (BY_WORDS, [grid(30, 30)], (), None),
+        ("Go to [9, 9], but under no circumstances leave the berth.", [to(9, 9)], (), "limit-lost"),
+        ("First to ninety zero actually forget ninety zero", [to(90, 0)], (), "contradiction"),
+        (
+            "Along the south face - sorry, NORTH face - 50 m, 5 m off.",
+            [along("south")],
+            (),
+            "value-lost",
+        ),
+        ("Along the south face - sorry, NORTH face - 50 m, 5 m off.", [along("north")], (), None),
         (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
         (
             "Twice up and down between 1,0 and 9,0.",

@@ -33,6 +33,21 @@ def test_a_turn_is_no_bare_number(command: str, arc: float, count: int) -> None:
     assert len(texts(document([orbit], command=command), "value-not-said")) == count
 
 
+@pytest.mark.parametrize(
+    ("command", "count"),
+    [
+        ("Tail vessel 7, don't get within 30 m of him.", 1),
+        ("Tail vessel 7, but stay within 30 m of home.", 0),
+        ("Tail vessel 7, no farther out than 30 m.", 0),
+    ],
+)
+def test_what_is_kept_off_something_is_no_way_from_home(command: str, count: int) -> None:
+    follow = task("FollowTarget", {"target_id": "vessel 7"}, None)
+    limit = "The vehicle stays within 30 m of home."
+    plan = document([follow], command=command, constraints=[limit])
+    assert len([one for one in texts(plan, "value-not-said") if "within 30 m" in one]) == count
+
+
 def test_a_coordinate_is_no_distance_to_keep() -> None:
     limit = "The vehicle keeps at least 150 m from every obstacle."
     for command, count in (("Go from 150,0 to 30,40.", 1), ("Keep 150 m off all, go 150,0.", 0)):
