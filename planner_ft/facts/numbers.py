@@ -55,7 +55,8 @@ _PART = re.compile(
 )
 _ROUND = ("round", "around", "about")
 _LAPS = re.compile(
-    r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?)",
+    r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?"
+    r"|x(?=\s+[a-z]))",
     re.IGNORECASE,
 )
 
@@ -315,9 +316,12 @@ def _as_before(row: Row, unit: str | None) -> Iterator[Number]:
 
 def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
     """Angles in degrees of the turns of a text: full, once, half, twice, three times."""
+    measured = [(one.start, one.end) for one in read_numbers(text) if one.unit]
     for row in read_rows(text):
         for index, (word, start, end) in enumerate(row.tokens):
-            turn = lists.TURNS.get(word, 0.0)
+            # "Half a knot" is no half turn.
+            whole = not any(first <= start < last for first, last in measured)
+            turn = lists.TURNS.get(word, 0.0) if whole else 0.0
             if word == "way" and row.word(index - 2) == "all" and row.word(index + 1) in _ROUND:
                 turn, start, end = 1.0, row.tokens[index - 2].start, row.tokens[index + 1].end
             if turn:

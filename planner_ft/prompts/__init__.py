@@ -38,6 +38,7 @@ PROMPT_VERSION = 5
 FEWEST, SHOUTED = 4, 0.8
 """Words of a text that is typed in capitals, and the part of them that begin with one."""
 _WORD, _BLANKS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[^\S\n]+")
+_TIMES = re.compile(r"(?<![\w.,])([2-9])x(?= [A-Za-z])")  # "2x round"
 PROBE = "\x02probe\x03"
 TODAY = "26 Jul 2024"
 """The date in the system message of Llama 3 templates, which would write today's."""
@@ -67,10 +68,10 @@ def user_text(level: Level, record: Record, vocabulary: Vocabulary) -> str:
 
 
 def _plainly(text: str) -> str:
-    """The text with single blanks, none before a comma; without capitals where most of its words
+    """The text with single blanks, none before a comma, "2x" as "2 times"; without capitals where most of its words
     begin with one, and without slips.
     """
-    text = _BLANKS.sub(" ", fluent(text)).replace(" ,", ",")
+    text = _TIMES.sub(r"\1 times", _BLANKS.sub(" ", fluent(text)).replace(" ,", ","))
     words = _WORD.findall(text)
     capitals = sum(word[0].isupper() for word in words)
     loud = len(words) >= FEWEST and capitals > SHOUTED * len(words)

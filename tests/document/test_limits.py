@@ -159,6 +159,14 @@ def test_speed_and_recording_are_checked_in_tasks_and_steps() -> None:
     assert not broken("Nothing is recorded near the pier.", tasks=tasks)
 
 
+def test_no_video_rules_out_no_stills() -> None:
+    stills = step("GoToXY", {"x": 9, "y": 9})
+    stills["perception_skills"] = [{"name": "CaptureGeoSnapshot", "parameters": {}}]
+    tasks = [task("Transit", {"target_position": [9, 9]}, [stills], "Go to [9, 9].")]
+    for command, count in (("Go to 9,9, stills on the way, no video.", 0), ("To 9,9.", 1)):
+        assert len(broken("Nothing is recorded.", tasks=tasks, command=command)) == count
+
+
 def test_a_time_of_return_that_is_a_duration_is_checked_against_the_plan() -> None:
     tasks = [
         transit(100, 50),

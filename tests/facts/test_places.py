@@ -301,6 +301,8 @@ TURNS = """
     5 of the circle => 1800 <5>
     a quarter of the way about => 90 <quarter>
     twice round => 720 <twice>
+    2x round => 720 <2x>
+    a lap at half a knot => 360 <lap>
     two full orbits => 360 <full>; 720 <two full orbits>
     two thirds of a circle => 240 <two thirds>
 """

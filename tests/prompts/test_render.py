@@ -172,5 +172,7 @@ def test_the_prompt_is_tokenised_as_the_whole_text_would_be(tokenizer: Any) -> N
 def test_a_command_is_told_plainly(typed: str) -> None:
     told = user_text("mission", {"prompt": typed}, VOCABULARY).strip().replace("at, [", "at [")
     assert told == "circle the mooring buoy at [40, 12] and come home"
+    twice = "2x round the islet, 2x4 m off"
+    assert user_text("mission", {"prompt": twice}, VOCABULARY) == twice.replace("2x ", "2 times ")
     named = "Find MV Alina and Durius Two"
     assert user_text("mission", {"prompt": named}, VOCABULARY) == named

@@ -10,6 +10,19 @@ from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.essentials import essentials_of
 
 
+def asked_skills(case: Case) -> set[str]:
+    """The skills that can gather what the command asks for, and that it does not rule out: stills,
+    but no video.
+    """
+    asked, ruled_out = set[str](), set[str]()
+    for data in case.spoken.data:
+        if data.ruled_out and data.said.search(case.command):
+            ruled_out |= data.skills
+        elif any(any(clause.spans(data.said)) for clause in case.typed):
+            asked |= data.skills
+    return asked - ruled_out
+
+
 def data_ruled_out(case: Case) -> Iterator[Warning]:
     """Words that rule data out which steps of the plan gather."""
     gathering = set[str]().union(*(gathered_by(task, case.vocabulary) for task in case.tasks))

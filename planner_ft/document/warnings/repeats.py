@@ -17,6 +17,7 @@ WAITING = ("hold", "follow", "drift", "visual")
 EVERY = re.compile(r"\b(?:every|each) $", re.IGNORECASE)
 ONWARD = re.compile(r"(?:[\s,;/\])\[(>→=-]|and|then|back|to)*", re.IGNORECASE)
 """What stands between the positions of a way: "50,0 -> 50,90 and back to 50,0"."""
+TIMES = re.compile(r"x(?=\s+[a-z])", re.IGNORECASE)  # "2x round"
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
 
@@ -86,6 +87,8 @@ def repeats(case: Case) -> Iterator[Warning]:
         if counts and not (inside and text[number.end - 1].isdigit()):
             # "Minus thirty four times" may be four times.
             first = itertools.islice(WORD.finditer(text, number.end), 1 if inside else 2)
+            if times := TIMES.match(text, number.end):
+                found[times.end()] = number.value, number.start
             counted = (case.words["repeats"].match(text, word.start()) for word in first)
             if behind := next(filter(None, counted), None):
                 found[behind.end()] = number.value, number.start

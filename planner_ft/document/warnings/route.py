@@ -14,6 +14,7 @@ from planner_ft.document.language import Clause
 from planner_ft.document.structures import MOVING, Structure, close_legs, closed_area, way_off
 from planner_ft.document.track import Leg, Point, place_of, shown, stated
 from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
+from planner_ft.document.warnings.data import asked_skills
 from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
 from planner_ft.planning.limits import last_away, time_left, without_limits
@@ -222,7 +223,8 @@ def _too_close(values: Entry, legs: list[Leg]) -> Found:
 
 def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
     """A step that records: anywhere, or where the task prompt names the place."""
-    forbidden = load_limits(case.vocabulary)["no_recording"].forbids
+    known = load_limits(case.vocabulary)["no_recording"].forbids
+    forbidden = {*known} - asked_skills(case)
     thing = limit["values"].get("object", "")
     for task in tasks:
         prompt = without_limits(task["task_prompt"], case.vocabulary)

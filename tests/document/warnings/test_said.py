@@ -133,6 +133,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (ARROWS, [to(1, 0), *[to(9, 0), to(1, 0)] * 3], (), None),
         ("Go to 9,9, speed not more two meter second.", [to(9, 9)], (), "limit-lost"),
         (NINETY, [to(180, 40), hold(120)], (), None),
+        ("2x round the islet at 60,60 at 20 m pls", [orbit(360)], (), "repeat-lost"),
+        ("2x round the islet at 60,60 at 20 m pls", [orbit(720)], (), None),
         (BY_WORDS, [grid(30, 5)], (), "value-lost"),
         (BY_WORDS, [grid(30, 30)], (), None),
         ("Go to [9, 9], but under no circumstances leave the berth.", [to(9, 9)], (), "limit-lost"),
