@@ -21,6 +21,7 @@ CLAUSE_END = re.compile(
     re.IGNORECASE,
 )
 LAST = re.compile(r"\s*(?:[.!?;]|$)")
+NOUN = re.compile(r"\s*(?:the|any)\s+[\w-]+(?:\s+[\w-]+)?\W*", re.IGNORECASE)
 NO = re.compile(r"^no\W+", re.IGNORECASE)
 
 
@@ -101,6 +102,8 @@ def _phrase(phrase: str) -> str:
 def _leads_to_a_value(no: re.Match[str], correction: re.Pattern[str]) -> bool:
     """Whether words correct what stands before them: "eighty forty, sorry, no, ninety forty"."""
     rest = no.string[no.end() :].lstrip(" ,")
+    if more := correction.match(rest):
+        rest = rest[more.end() :].lstrip(" ,")
     valued = any(number.start == 0 for number in read_numbers(rest))
     plain = no[0].casefold() == "no"
     return plain and valued and ends_with(correction, no.string[: no.start()])
@@ -167,13 +170,24 @@ class Clause:
                 yield self.start + match.start(), self.start + match.end()
 
 
+def _goes_on(command: str, last: Clause, start: int, text: str) -> bool:
+    """Whether a clause is a mere noun that is ruled out with the last one."""
+    joined = command[last.end : start].strip().casefold() in ("and", "or", "nor")
+    return (
+        joined
+        and bool(NOUN.fullmatch(text))
+        and last.excluded is not None
+        and last.excluded >= last.start
+    )
+
+
 @functools.lru_cache(maxsize=64)
 def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
     """The clauses of a command in order: between commas, sentence ends, "and" and "then"."""
     words = language(vocabulary).words
     ends = [(match.start(), match.end()) for match in CLAUSE_END.finditer(command)]
     starts = [0, *(end for _start, end in ends)]
-    found = []
+    found = list[Clause]()
     for start, end in zip(starts, [*(end for end, _next in ends), len(command)], strict=True):
         text = command[start:end]
         if text.strip():
@@ -189,5 +203,8 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
             behind_it = exclusion if instead else behind_it
             resumed = start + behind_it.end() if behind_it and not told else None
             excluded = start - 1 if told or instead else excluded
+            # "Forget the diagnostics and the report."
+            if found and found[-1].excluded and _goes_on(command, found[-1], start, text):
+                excluded = start
             found.append(Clause(start, end, text, excluded, corrected, resumed))
     return tuple(found)

@@ -33,7 +33,8 @@ _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:(?:which|that|she|he|it) )?(?:is|are|was|stands?|standing|lies?|lying|sits?"
     r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|(?:she|he|it)['’]s)\s+"
     r"(?:\w+\s+){0,2}?)?(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?"
-    r"(?:at|near|around|in|on|by|@)\s*|(?=[\[(\d−–-]))[\[(]?\s*",
+    r"(?:(?:at|near|around|in|on|by|@)\s*|in the \w+,\s+)"
+    r"|(?=[\[(\d−–-]))[\[(]?\s*",
     re.IGNORECASE,
 )
 """What stands between a thing and its coordinates: "the other way, [0, 35]" names no thing."""
@@ -151,6 +152,7 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
         if not place.certain and place in written:
             beside = (at for at in bare if text[at[1] : place.start].isspace())
             words = next((text[start:end] for start, end in beside), "")
+            words = words or _words_before(text, place.start, bare)
         if not stands(words, vocabulary):
             words = told.pop(place.start, "") or words or several.pop(place.start, "")
         if words and place.start not in areas:

@@ -67,6 +67,7 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
     """The known structures of a plan, each with the stand-off that is stated or the vehicle's."""
     own = (document.get("vehicle") or {}).get("stand_off", STAND_OFF)
     least, kept, named = 0.0, dict[Point, float](), dict[Point, str]()
+    tall, berths = set[Point](), set[Point]()
     for limit in limits_of(document, vocabulary):
         values = limit["values"]
         if limit["kind"] == "clearance":
@@ -97,6 +98,9 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
         upright = known.pattern != LINE and any(stands(one, vocabulary) for one in things + said)
         if known.docks or (over and not upright):
             excluded.add(place)
+        # What another task goes to stands also in the middle of an area.
+        berths |= {place} if known.docks else set()
+        tall |= {place} if upright and not known.docks else set()
         if known.pattern in ROUND:
             named.setdefault(place, "")
         for words in things:
@@ -112,7 +116,7 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
     return [
         Structure(name or shown(at), at, max(kept.get(at) or min(stated.get(at, [own])), least))
         for at, name in named.items()
-        if at in kept or at not in excluded
+        if at in kept or at not in excluded or at in tall - berths
     ]
 
 

@@ -17,10 +17,16 @@ SIGNS = ("minus", "negative", "plus", "comma")
 BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them belongs to
 MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
 """Words of one place, of several in a row, and of a row with commas, that are looked at."""
-_AT = re.compile(r"\b(?:at|to|near|around|from|between|on|position)\s+(?:plus\s+)?$", re.I)
+_AT = re.compile(
+    r"\b(?:at|to|for|via|near|around|from|between|on|(?:position|waypoint)(?:\s+is)?)\s+"
+    r"(?:plus\s+)?$",
+    re.IGNORECASE,
+)
+_X = re.compile(r"(?<![a-z])x\s+(?:(?:is|equals)\s+)?$", re.IGNORECASE)
+_Y = re.compile(r",?\s+(?:and\s+)?y\s+(?:(?:is|equals)\s+)?", re.IGNORECASE)
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
 _COMMA = re.compile(r"\s+comma\s+")
-_INSTEAD = "|".join(sorted(WORDS["instead"]))
+_INSTEAD = "|".join(sorted(WORDS["instead"])).replace("_", r"\s+")
 _BESIDE = re.compile(rf"(?:\s*,)?\s+(?:(?:and|then|and then|to)\s+|(?:(?:{_INSTEAD}),?\s+)+)?")
 _BY = re.compile(r"\s+by\s")
 _TIMES = re.compile(r"\s+times\b")
@@ -56,6 +62,7 @@ def dictated_pairs(text: str) -> tuple[Pair, ...]:
             follows = bool(found) and _BESIDE.fullmatch(text, found[-1][3], run.start)
             words = text[run.start : run.end].casefold()
             at = follows or words in known or _AT.search(text, max(0, run.start - 24), run.start)
+            found += _by_axes(text, run)
             found += row or (_place(text, run) if at and len(run.parts) < 3 else [])
             known |= {words} if found and found[-1][2:] == (run.start, run.end) else set()
     return tuple(found)
@@ -88,6 +95,19 @@ def _place(text: str, run: Run) -> list[Pair]:
         whole = [path for path in whole if plain(text, path)] or whole
     pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
     return list(pairs) if len(pairs) == 1 else []
+
+
+def _by_axes(text: str, run: Run) -> list[Pair]:
+    """The coordinates of a row of words behind "x" and a number behind "y": "x one eighty y forty";
+    none where the second can be another number.
+    """
+    between = _Y.match(text, run.end) if _X.search(text, 0, run.start) else None
+    firsts = [path[0] for path in _paths(text, run.numbers, run.start, run.end, 1)]
+    others = [one for one in read_all(text) if between and one.start == between.end()]
+    longest = [one for one in others if one.stop == max(other.stop for other in others)]
+    if len(firsts) != 1 or len(longest) != 1 or any(one.unit for one in others):
+        return []
+    return [(firsts[0].said, longest[0].said, run.start, longest[0].stop)]
 
 
 def _at_comma(text: str, run: Run) -> Iterator[list[Number]]:

@@ -21,7 +21,8 @@ BLANK = "|"  # stands in place of what was read already
 _MINUS = ("-", "−", "–")
 
 _COORDINATE = re.compile(
-    r"(?P<word>\b(?:lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
+    r"(?P<word>\b(?:lat(?:itude)?\W{1,3}(?:and )?(?:lon(?:g(?:itude)?)?|lng)"
+    r"|lat(?:itude)?|lon(?:g(?:itude)?)?|lng)\b[\s.:=]{0,3}(?:of |is )?)?"
     r"(?:(?P<lead>\b[NSEW]\s?)|(?<![\w.])|(?<=\d[NS])|(?<=\.\d{4})(?=[+-]\d{2,3}\.\d{4}))"
     r"(?P<sign>[-−–+])?"
     r"(?:(?P<whole>\d{2,3})[\s-]?(?P<packed>[0-5]\d(?:\.\d+|(?=[\s-]?[0-5]\d)))"
@@ -107,12 +108,13 @@ def _read(text: str) -> tuple[Geographic, ...]:
             sure += [match for match in (one, two) if match not in sure]
     # "48.123N 7.5E": what stands beside degrees with a hemisphere of its own is degrees.
     pairs = [(one, two) for one, two in itertools.pairwise(known) if {one, two} & {*sure}]
+    # "Lat/long 54.25 10.5" says what both are.
     beside = {
         match
         for one, two in pairs
         if _BETWEEN_COORDINATES.fullmatch(text, one.end(), two.start())
         for match in (one, two)
-        if _has_letter(match)
+        if _has_letter(match) or "lon" in (one["word"] or "").lower()[3:]
     }
     found = [match for match in known if match in beside or match in sure]
     result, skip = list[Geographic](), False

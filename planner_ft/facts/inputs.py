@@ -165,8 +165,12 @@ class Input:
 
     @functools.cached_property
     def rectangles(self) -> tuple[Area, ...]:
-        """The areas that a command says by four corners in a row, and by no other sizes."""
+        """The areas that a command says by four corners in a row, and by no other sizes; what is
+        done at "each" of four places is in no area.
+        """
         text, found = self.facts.text, list[Area]()
+        if "each" in words(text):
+            return ()
         rows = places.rows_of(text, places.written_positions(text))
         together = {one.start for row in rows_of_sizes(text) for one in row}
         lengths = [one for one in read_numbers(text) if one.unit == "m" or one.start in together]

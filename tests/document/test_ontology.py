@@ -249,6 +249,18 @@ def test_the_corners_of_an_area_are_no_things_and_four_piles_are() -> None:
     assert len(named_places(f"Go between the piles at {corners}.", USV)) == 4
 
 
+@pytest.mark.parametrize(
+    ("text", "thing"),
+    [
+        ("The met mast stands slap in the middle, 150,150.", "mast"),
+        ("Film MV Alina, she's lying at 64,-22.", "MV Alina"),
+        ("CIRCLE THE BUOY @ 40,20", "THE BUOY"),
+    ],
+)
+def test_a_thing_is_named_with_a_clause_between(text: str, thing: str) -> None:
+    assert [words for words, _place in named_places(text, USV)] == [thing]
+
+
 def test_numbered_and_sized_things_are_named_and_stations_of_something() -> None:
     command = (
         "Pile A at [1, 2], a pier with a width of 9 m at [3, 4], the pumping station at [5, 6],"

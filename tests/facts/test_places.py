@@ -240,6 +240,8 @@ GEOGRAPHIC = """
     lat 54 lon 10 => 54,10 <lat 54 lon 10>
     latitude: 54, longitude: -10 => 54,-10 <latitude: 54, longitude: -10>
     lon 10 lat 54 => 54,10 <lon 10 lat 54>
+    lat/long 50.3601 / -4.1432 => 50.3601,-4.1432 <lat/long 50.3601 / -4.1432>
+    latitude and longitude: 54.25 10.5 => 54.25,10.5 <latitude and longitude: 54.25 10.5>
     lng 10 lat 54 => 54,10 <lng 10 lat 54>
     54.3217 S =>
     54°19' N => 54.31667,? <54°19' N>
@@ -530,6 +532,8 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("at minus twenty comma one hundred and six that's all", (-20, 106)),
         ("to two hundred and fifty comma one hundred and ten", (250, 110)),
         ("dock at five five please", (5, 5)),
+        ("down to x one eighty y forty ten metres off", (180, 40)),
+        ("head for ninety zero hold there two minutes", (90, 0)),
         ("to fifty comma one twenty four times", (50, 120)),
         ("at minus fifty comma seventy one full circle", (-50, 70)),
     ],

@@ -98,6 +98,7 @@ CHECKS: tuple[Check, ...] = (
         values.unread,
         values.unsaid,
         values.said_once,
+        values.within_another,
         values.unsaid_limits,
         values.unheard,
         values.unsought,

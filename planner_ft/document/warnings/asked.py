@@ -135,7 +135,8 @@ def _taken_back(case: Case) -> dict[Ask, str]:
         for clause in (one for one in case.typed if not one.corrected):
             for match in ask.named.finditer(clause.text):
                 before = clause.text[max(0, match.start() - NEAR) : match.start()]
-                ruled_out = case.words["exclusion"].search(before)
+                ruled_out = clause.excluded == clause.start
+                ruled_out |= case.words["exclusion"].search(before) is not None
                 last.pop(ask, None)
                 if ruled_out and clause.excluded is not None and clause.excluded >= clause.start:
                     last[ask] = quoted(clause.text.strip(" ,;"))

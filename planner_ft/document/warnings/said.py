@@ -4,6 +4,7 @@ Facts of the text are compared with values of the plan; which words limit is dat
 (planner_ft/document/english.toml).
 """
 
+import dataclasses
 import functools
 import itertools
 import re
@@ -34,6 +35,8 @@ SIZES = re.compile(r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$"
 AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
 """Stands before a number that is said as one coordinate: "x = 120"."""
 SIDE = re.compile(rf"\b(?:{'|'.join(SIDES)})(?: (?:of|is))?\s*[:=]?\s*$", re.IGNORECASE)
+HOUR = re.compile(r"(?:[01]\d|2[0-3])[0-5]\d")
+BY = re.compile(r"\b(?:by|before|until|till) $", re.IGNORECASE)
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b(?!\.)\W*", re.IGNORECASE)
@@ -112,7 +115,7 @@ def clock_times(case: Case) -> Iterator[Warning]:
     """Times such as "14:30" that are in no text of the plan, nor as a length among its values;
     those of limits are judged by `limits`.
     """
-    readings = list(read_times(case.text))
+    readings = [*read_times(case.text), *_hours(case)]
     kept = [(one.start, one.end) for one in readings if case.plan.says(one.value)]
     for start, end in dict.fromkeys((one.start, one.end) for one in readings if not one.said):
         words, clause = case.text[start:end], case.clause_at(start)
@@ -120,6 +123,14 @@ def clock_times(case: Case) -> Iterator[Warning]:
         limit = clause is not None and case.words["limit"].search(clause.text)
         if case.wants(start) and not (covered or limit or words in case.plan.texts):
             yield lost(words)
+
+
+def _hours(case: Case) -> Iterator[Number]:
+    """Four digits that are a time of day: "by 1430"."""
+    for number in (one for one in case.numbers if one.unit is None):
+        before, digits = case.text[: number.start], case.text[number.start : number.end]
+        if HOUR.fullmatch(digits) and BY.search(before[-NEAR:]):
+            yield dataclasses.replace(number, said=0)
 
 
 def _is_in_plan(number: Number, case: Case) -> bool:

@@ -1,5 +1,6 @@
 """Values that nobody said."""
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -13,6 +14,7 @@ from planner_ft.facts import (
     Evidence,
     Facts,
     Position,
+    Span,
     is_number,
     is_place,
     near,
@@ -68,6 +70,31 @@ def unsaid(case: Case) -> Iterator[Warning]:
             elif _contradicts(prompt, value, parameter):
                 words = quoted(task["task_prompt"])
                 yield warning("contradiction", "prompt", **about, words=words)
+
+
+def within_another(case: Case) -> Iterator[Warning]:
+    """Values whose words take in those of a number: "thirty ninety eight sectors" is not [30, 98]
+    and 8 sectors.
+    """
+    said, values = case.source.facts, list[tuple[Entry, Parameter, Any, list[Span]]]()
+    for task in case.tasks if not said.unread else ():
+        for name, parameter in case.vocabulary.task[task["title"]].by_name.items():
+            value = task["parameters"].get(name)
+            if is_number(value) or is_place(value):
+                mentions = said.evidence(value, parameter).mentions
+                values.append((task, parameter, value, [*itertools.chain(*mentions)]))
+    numbers = [one for one in values if is_number(one[2]) and one[3]]
+    for task, parameter, wider, spans in values:
+        for _task, own, value, parts in numbers if spans else ():
+            if value != wider and all(_is_part(part, spans) for part in parts):
+                about: dict[str, Any] = {"name": parameter.name, "other": f"{own.name} {value:g}"}
+                about["value"] = _shown(wider, parameter)
+                yield warning("value-not-said", "within", task, parameter.name, **about)
+                break
+
+
+def _is_part(span: Span, wider: Sequence[Span]) -> bool:
+    return any(one[0] <= span[0] and span[1] <= one[1] and one != span for one in wider)
 
 
 def said_once(case: Case) -> Iterator[Warning]:

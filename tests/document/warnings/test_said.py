@@ -57,6 +57,7 @@ REPORT = task("AutoGenerateReportSummary", {}, [step("StationKeep", {})])
 SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 ARROWS = "Shuttle 1,0 -> 9,0 and back to 1,0, THREE times in all."
 NINETY = "go to eighty forty sorry no one hundred eighty forty and wait two minutes"
+CORNERS = "run down to x one eighty y forty"
 BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
@@ -135,6 +136,16 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (NINETY, [to(180, 40), hold(120)], (), None),
         ("2x round the islet at 60,60 at 20 m pls", [orbit(360)], (), "repeat-lost"),
         ("2x round the islet at 60,60 at 20 m pls", [orbit(720)], (), None),
+        (CORNERS, [to(180, 40)], (), None),
+        (CORNERS, [to(80, 40)], (), "value-lost"),
+        ("dock at ten minus five sorry no i mean minus ten five", [to(-10, 5)], (), None),
+        ("Be back on the quay at 9,9 by 1430 sharp.", [to(9, 9)], (), "value-lost"),
+        (
+            "Go to 9,9, report. Forget the survey and the report.",
+            [to(9, 9), REPORT],
+            (),
+            "contradiction",
+        ),
         (BY_WORDS, [grid(30, 5)], (), "value-lost"),
         (BY_WORDS, [grid(30, 30)], (), None),
         ("Go to [9, 9], but under no circumstances leave the berth.", [to(9, 9)], (), "limit-lost"),

@@ -19,6 +19,17 @@ def to(*steps: dict[str, Any], prompt: str = "Go to [30, 40].") -> dict[str, Any
     return task("Transit", {"target_position": [30, 40]}, [*steps], prompt)
 
 
+def test_words_of_one_value_are_no_part_of_another() -> None:
+    look = task("HorizontalPanorama", {"sectors": 8}, None)
+    for place, count in (([30, 98], 1), ([30, 90], 0)):
+        plan = document(
+            [task("Transit", {"target_position": place}, None), look],
+            command="Go to thirty ninety eight sectors there.",
+        )
+        found = [one for one in texts(plan, "value-not-said") if "some words" in one]
+        assert len(found) == count
+
+
 @pytest.mark.parametrize(
     ("command", "arc", "count"),
     [
