@@ -84,12 +84,13 @@ def within_another(case: Case) -> Iterator[Warning]:
                 mentions = said.evidence(value, parameter).mentions
                 values.append((task, parameter, value, [*itertools.chain(*mentions)]))
     numbers = [one for one in values if is_number(one[2]) and one[3]]
-    for task, parameter, wider, spans in values:
+    for taking, named, wider, spans in values:
         for _task, own, value, parts in numbers if spans else ():
-            if value != wider and all(_is_part(part, spans) for part in parts):
-                about: dict[str, Any] = {"name": parameter.name, "other": f"{own.name} {value:g}"}
-                about["value"] = _shown(wider, parameter)
-                yield warning("value-not-said", "within", task, parameter.name, **about)
+            other = value not in (wider if is_place(wider) else (wider,))
+            if other and all(_is_part(part, spans) for part in parts):
+                about: dict[str, Any] = {"name": named.name, "value": _shown(wider, named)}
+                about["other"] = f"{own.name} {value:g}"
+                yield warning("value-not-said", "within", taking, named.name, **about)
                 break
 
 
