@@ -99,15 +99,19 @@ def _is_part(span: Span, wider: Sequence[Span]) -> bool:
 
 
 def said_once(case: Case) -> Iterator[Warning]:
-    """A side of a grid that has the number of its spacing, which the command says once."""
+    """A value of a task that has the number of another one of it, which the command says once; the
+    sides of a square have one number.
+    """
     for task in case.tasks:
-        definition, given = case.vocabulary.task[task["title"]], task["parameters"]
-        spacing = given.get(SPACING) if definition.pattern == "lawnmower" else None
-        numbers = (one for one in case.numbers if not case.is_coordinate(one))
-        said = [one for one in numbers if spacing and near(one.value, spacing)]
-        for name in (name for name in SIZE if len(said) == 1 and given.get(name) == spacing):
-            value = _shown(given[name], definition.by_name[name])
-            yield warning("value-not-said", "unsaid", task, name, name=name, value=value)
+        known, given = case.vocabulary.task[task["title"]].by_name, task["parameters"]
+        numbers = [one.value for one in case.numbers if not case.is_coordinate(one)]
+        measured = [name for name in known if known[name].unit and is_number(given.get(name))]
+        for name, other in itertools.combinations(sorted(measured, key=SPACING.__eq__), 2):
+            same = known[name].unit == known[other].unit and given[name] == given[other]
+            once = sum(near(one, given[name]) for one in numbers) == 1
+            if same and once and {name, other} != {*SIZE}:
+                value = _shown(given[name], known[name])
+                yield warning("value-not-said", "unsaid", task, name, name=name, value=value)
 
 
 def unsaid_limits(case: Case) -> Iterator[Warning]:

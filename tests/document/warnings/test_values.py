@@ -19,6 +19,16 @@ def to(*steps: dict[str, Any], prompt: str = "Go to [30, 40].") -> dict[str, Any
     return task("Transit", {"target_position": [30, 40]}, [*steps], prompt)
 
 
+@pytest.mark.parametrize(
+    ("said", "count"), [("offset 5 m, 40 m of it", 1), ("40 m off, 40 m of it", 0)]
+)
+def test_a_number_that_is_said_once_is_one_value(said: str, count: int) -> None:
+    values = {"side_id": "north", "length": 40, "distance": 40}
+    along = task("ParallelStructurePass", values, None)
+    plan = document([along], command=f"Along the north side of the hulk at 77,31, {said}.")
+    assert len(texts(plan, "value-not-said")) == count
+
+
 def test_words_of_one_value_are_no_part_of_another() -> None:
     look = task("HorizontalPanorama", {"sectors": 8}, None)
     for place, count in (([30, 98], 1), ([30, 90], 0)):
