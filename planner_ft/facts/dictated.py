@@ -18,7 +18,7 @@ BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them be
 MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
 """Words of one place, of several in a row, and of a row with commas, that are looked at."""
 _AT = re.compile(
-    r"\b(?:at|to|for|via|near|around|from|between|on|(?:position|waypoint)(?:\s+is)?)\s+"
+    r"\b(?:at|to|for|via|near|around|from|between|on|cent(?:re|er)|(?:position|waypoint)(?:\s+is)?)\s+"
     r"(?:plus\s+)?$",
     re.IGNORECASE,
 )

@@ -77,7 +77,7 @@ CHECKS: tuple[Check, ...] = (
     *(places.unmoved, places.round_home, repeats.intervals, repeats.endless, repeats.to_and_fro),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
     *(
-        said.sides,
+        directions.sides,
         said.crossed,
         said.clock_times,
         places.geographic,

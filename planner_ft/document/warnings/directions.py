@@ -1,15 +1,43 @@
 """Directions of the command that the plan has not: where a survey begins, how its lines lie."""
 
+import itertools
+import re
 from collections.abc import Iterator
 
 from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, bearing, place_of
 from planner_ft.document.warnings.case import Case, Warning, lost
+from planner_ft.facts import Number, near
 from planner_ft.facts.places import read_bearings
 from planner_ft.vocabulary import Entry
 
+ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
+CORRECTED = 30  # characters between a direction and its correction
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
+
+
+def sides(case: Case) -> Iterator[Warning]:
+    """Directions of which the plan has nothing: one that takes the place of another ("the south
+    face, sorry, NORTH face"), and a side that is said last where the plan goes along another.
+    """
+    found = read_bearings(case.text)
+    for one, other in itertools.pairwise(found):
+        between = case.text[one.end : other.start]
+        corrected = case.words["correction"].search(between) and len(between) <= CORRECTED
+        if corrected and not near(one.value, other.value) and not _has(other, case):
+            yield case.lost(other.start, other.end)
+    along = any(case.vocabulary.task[one["title"]].pattern == "pass" for one in case.tasks)
+    last = [one for one in found if along and ON_SIDE.match(case.text, one.end)]
+    while last and case.wants(last[-1].start) and not _has(last[-1], case):
+        one = last.pop()
+        yield case.lost(one.start, one.end)
+
+
+def _has(direction: Number, case: Case) -> bool:
+    """Whether a direction is a value of the plan, or a word of it."""
+    words = case.text[direction.start : direction.end].casefold()
+    return words in case.plan.words or case.plan.says(direction.value)
 
 
 def laid_otherwise(case: Case) -> Iterator[Warning]:

@@ -212,19 +212,6 @@ def _sizes(case: Case) -> Iterator[list[Number]]:
             yield row
 
 
-def sides(case: Case) -> Iterator[Warning]:
-    """Directions that take the place of another, of which the plan has nothing: "the south face,
-    sorry, NORTH face".
-    """
-    for one, other in itertools.pairwise(read_bearings(case.text)):
-        between = case.text[one.end : other.start]
-        corrected = case.words["correction"].search(between) or NO.search(between)
-        if corrected and len(between) <= CORRECTED and not near(one.value, other.value):
-            words = case.text[other.start : other.end]
-            if words.casefold() not in case.plan.words and not case.plan.says(other.value):
-                yield case.lost(other.start, other.end)
-
-
 def crossed(case: Case) -> Iterator[Warning]:
     """A line such as "x = 100" on both sides of which the plan goes: it may be a limit."""
     paired = [(place.start, place.end) for place in read_positions(case.text)]

@@ -58,6 +58,7 @@ SHUTTLE = "From 1,0 to 9,0 and back to 1,0, three times over."
 ARROWS = "Shuttle 1,0 -> 9,0 and back to 1,0, THREE times in all."
 NINETY = "go to eighty forty sorry no one hundred eighty forty and wait two minutes"
 CORNERS = "run down to x one eighty y forty"
+FOUR_SIDES = "Along the north side, then the east side, then the west side, 50 m, 5 m off."
 BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
@@ -146,6 +147,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
             (),
             "contradiction",
         ),
+        (FOUR_SIDES, [along("north"), along("east")], (), "value-lost"),
+        ("Along the north side, no, the east side, 50 m, 5 m off.", [along("east")], (), None),
         (BY_WORDS, [grid(30, 5)], (), "value-lost"),
         (BY_WORDS, [grid(30, 30)], (), None),
         ("Go to [9, 9], but under no circumstances leave the berth.", [to(9, 9)], (), "limit-lost"),
