@@ -190,7 +190,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         behind = behind or case.words["extent"].match(case.text[number.end :].lstrip()) is not None
         if last and number.value >= 2:
             behind = behind or ends_with(case.words["measured"], before)
-            behind = behind or (number.value > HOURS and AT.search(before) is not None)
+        behind = behind or (number.value > HOURS and AT.search(before) is not None)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
         if number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)

@@ -149,6 +149,12 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ),
         (FOUR_SIDES, [along("north"), along("east")], (), "value-lost"),
         ("Along the north side, no, the east side, 50 m, 5 m off.", [along("east")], (), None),
+        (
+            "To 9,9, a pier is at one hundred fifty so do not hit that.",
+            [to(9, 9)],
+            (),
+            "value-lost",
+        ),
         (BY_WORDS, [grid(30, 5)], (), "value-lost"),
         (BY_WORDS, [grid(30, 30)], (), None),
         ("Go to [9, 9], but under no circumstances leave the berth.", [to(9, 9)], (), "limit-lost"),
