@@ -18,8 +18,8 @@ BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them be
 MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
 """Words of one place, of several in a row, and of a row with commas, that are looked at."""
 _AT = re.compile(
-    r"\b(?:at|to|for|via|near|around|from|between|on|cent(?:re|er)|(?:position|waypoint)(?:\s+is)?)\s+"
-    r"(?:plus\s+)?$",
+    r"\b(?:at|to|for|via|near|around|from|between|on|cent(?:re|er)"
+    r"|(?:position|waypoint)(?:\s+is)?)\s+(?:plus\s+)?$",
     re.IGNORECASE,
 )
 _X = re.compile(r"(?<![a-z])x\s+(?:(?:is|equals)\s+)?$", re.IGNORECASE)
@@ -185,8 +185,8 @@ def _runs(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _goes_on(tokens: Sequence[Token], place: int, *, behind_comma: bool) -> bool:
-    """Whether the "and" at a place is part of a number: "one hundred and six", but not in "ten comma
-    one hundred and six comma forty", which are two positions.
+    """Whether the "and" at a place is part of a number: "one hundred and six", but not in "ten
+    comma one hundred and six comma forty", which are two positions.
     """
     numeral = [*SMALL, *SCALES]
     ahead = itertools.takewhile(lambda one: one.word in numeral, tokens[place + 1 :])

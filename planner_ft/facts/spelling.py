@@ -6,10 +6,10 @@ import re
 
 from planner_ft.facts.words import is_known, near_words
 
-WORD = re.compile(r"(?<![\w'’@#.-])[a-z]{5,}(?![\w'’-])")
-"""Words that can be slips: no names, codes or parts of others."""
+WORD = re.compile(r"(?:(?<![\w'’@#.-])[a-z]|(?:^|(?<=[.!?] ))[A-Z])[a-z]{4,}(?![\w'’-])")
+"""Words that can be slips: no names, codes or parts of others. A sentence begins with a capital."""
 SOUND = re.compile(r"(?<![\w'’-])(?:uh+m?|u+m+|e+rm?)(?![\w'’-])(?:\s*,)?", re.IGNORECASE)
-USUAL = 20  # times that templates have a word, at least, for which another one is a slip
+USUAL = 5  # times that templates have a word, at least, for which another one is a slip
 PLAINER = 4  # times that it is more usual than the next one that is as near
 
 
@@ -27,11 +27,13 @@ def fluent(text: str) -> str:
 
 @functools.lru_cache(maxsize=4096)
 def _meant(word: str) -> str:
-    if is_known(word) or word in _english():
+    plain = word.lower()
+    if is_known(plain) or plain in _english():
         return word
-    near = sorted(near_words(word, 1))
+    near = sorted(near_words(plain, 1))
     first, second = [*(-count for _edits, count, _word in near), 0, 0][:2]
-    return near[0][2] if first >= max(USUAL, PLAINER * second) else word
+    meant = near[0][2] if first >= max(USUAL, PLAINER * second) else plain
+    return meant if word == plain else meant.capitalize()
 
 
 @functools.cache

@@ -68,8 +68,8 @@ def user_text(level: Level, record: Record, vocabulary: Vocabulary) -> str:
 
 
 def _plainly(text: str) -> str:
-    """The text with single blanks, none before a comma, "2x" as "2 times"; without capitals where most of its words
-    begin with one, and without slips.
+    """The text with single blanks, none before a comma, "2x" as "2 times"; without capitals where
+    most of its words begin with one, and without slips.
     """
     text = _TIMES.sub(r"\1 times", _BLANKS.sub(" ", fluent(text)).replace(" ,", ","))
     words = _WORD.findall(text)

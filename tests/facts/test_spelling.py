@@ -10,6 +10,7 @@ from planner_ft.facts.spelling import fluent, spelt
     [
         ("inpsect the bouy and retrun", "inspect the bouy and return"),
         ("a raport on the clearence", "a report on the clearance"),
+        ("Folow the rduder. Surevy it", "Follow the rudder. Survey it"),
         ("serch off Inpsect-2, target_inpsect", "search off Inpsect-2, target_inpsect"),
     ],
 )
@@ -17,7 +18,9 @@ def test_a_slip_of_a_usual_word_is_put_right(written: str, meant: str) -> None:
     assert spelt(written) == meant
 
 
-@pytest.mark.parametrize("word", ["marlin", "powder", "coarse", "spudcan", "Inpsect", "kohlrabi"])
+@pytest.mark.parametrize(
+    "word", ["marlin", "powder", "coarse", "spudcan", "Inpsect", "kohlrabi", "rebar", "comms"]
+)
 def test_other_words_names_and_codes_stay(word: str) -> None:
     assert spelt(f"find the {word} at 40,20") == f"find the {word} at 40,20"
 
