@@ -281,7 +281,10 @@ def _phrase_end(text: str, start: int, spoken: Language) -> int | None:
     end = None
     for _number in range(LONGEST_NAME):
         word = _WORD.match(text, start)
-        ends = (spoken.words["boundary"], spoken.words["determiner"])
+        ends = [spoken.words["determiner"]]
+        # "The moored workboat": what ends a phrase elsewhere can begin one.
+        if not (word and end is None and word[1].lower().endswith("ed")):
+            ends.append(spoken.words["boundary"])
         if (
             not word
             or word[1].lower() in ("of", "with")

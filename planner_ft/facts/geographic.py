@@ -40,9 +40,10 @@ they are spoken of without signs: "48 07.038 N", "48-07.0N", with seconds "48-07
 """
 _DICTATED = re.compile(r"[a-z] (?:(?:decimal|point) [a-z]|degrees? [a-z])", re.IGNORECASE)
 _UTM = re.compile(
-    r"(?:\bUTM\b\W{0,3})?(?:\bzone\s)?\b(?P<zone>[1-9]|[1-5]\d|60)\s?(?P<band>[C-HJ-NP-X])?\b"
-    r"\W{1,3}(?:(?:easting|E|x)\W{0,3})?(?P<easting>\d{6}(?:\.\d+)?)(?:\s?m?E\b|\s?m\b)?"
-    r"\W{1,3}(?:(?:and )?(?:northing|N|y)\W{0,3})?(?P<northing>\d{7}(?:\.\d+)?)"
+    r"(?:\bUTM\b\W{0,3})?(?:(?:\bzone\s)?\b(?P<zone>[1-9]|[1-5]\d|60)\s?(?P<band>[C-HJ-NP-X])?\b"
+    r"\W{1,3}|(?<=UTM: )|(?<=UTM )|(?<=UTM, ))"
+    r"(?:(?:easting|E|x)\W{0,3})?(?P<easting>\d{3}\s?\d{3}(?:\.\d+)?)(?:\s?m?E\b|\s?m\b)?"
+    r"\W{1,3}(?:(?:and )?(?:northing|N|y)\W{0,3})?(?P<northing>\d\s?\d{3}\s?\d{3}(?:\.\d+)?)"
     r"(?:\s?m?N\b|\s?m\b)?",
     re.IGNORECASE,
 )
@@ -137,8 +138,13 @@ def _read(text: str) -> tuple[Geographic, ...]:
 def _read_utm(text: str) -> Iterator[Geographic]:
     for match in _UTM.finditer(text):
         south = (match["band"] or "N").upper() in "CDEFGHJKLMS"
-        metres = float(match["easting"]), float(match["northing"])
-        yield Geographic(*from_utm(int(match["zone"]), *metres, south=south), *match.span())
+        easting, northing = (
+            float(match[name].replace(" ", "")) for name in ("easting", "northing")
+        )
+        place: tuple[float | None, float | None] = None, None  # without its zone it is anywhere
+        if match["zone"]:
+            place = from_utm(int(match["zone"]), easting, northing, south=south)
+        yield Geographic(*place, *match.span())
 
 
 def lone_coordinates(text: str) -> list[tuple[int, int]]:

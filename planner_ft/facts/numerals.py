@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import bisect
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from planner_ft.facts import words as lists
@@ -19,6 +19,8 @@ MIXED = {"1/2": 0.5, "1/4": 0.25, "3/4": 0.75}
 TURNED = ("of", "turn", "turns", "circle", "circles")
 NUMERALS = frozenset([*SMALL, *SCALES, *PARTS, *lists.TURNS])
 COUNTED = frozenset([*WORDS["articles"], *SMALL, *SCALES, *FRACTIONS, "-", "/", "of"])
+BEHIND_ANOTHER = ("comma", "minus", "negative", "plus", "point", "by", "x", ",", *AND)
+"""What stands before a number that others stand before."""
 PASSED = 3  # words between a number and its unit: "quarter of a nautical mile"
 
 _TOKEN = re.compile(
@@ -33,6 +35,7 @@ _TOKEN = re.compile(
 """A hyphen between letters is no token: "ninety-five" is ninety five."""
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:,\d{3})+(?![\d.])")
 
+Span = tuple[int, int]
 Reading = tuple[float, int]  # a number, and the index behind it
 
 
@@ -40,6 +43,9 @@ class Token(NamedTuple):
     word: str
     start: int
     end: int
+
+
+_IN_FULL = re.compile(r"(?:(?:o|n|yo?)t)?(?:oh)?(?:a?(?:o|n|yo?))?")
 
 
 class Row:
@@ -305,3 +311,29 @@ def _joins(current: float, following: float, total: float) -> bool:
     if current >= 100 and current % 100 == 0:
         return 0 < following < 100
     return current >= 20 and current % 10 == 0 and 0 < following < 10
+
+
+def spoken_whole(tokens: Sequence[Token]) -> Iterator[Span]:
+    """The spans of words in a row that make one number, as it is said in full: "twenty two", "one
+    thousand five hundred"; not "one twenty four", which can be two, nor behind another number:
+    "forty comma twenty two".
+    """
+    row, before = list[Token](), ""
+    for token in (*tokens, Token("", 0, 0)):
+        joins = token.word in AND and bool(row) and row[-1].word in SCALES
+        if _kind(token.word) or joins:
+            row.append(token)
+            continue
+        kinds = "".join(_kind(one.word) or "a" for one in row)
+        if len(row) > 1 and before not in BEHIND_ANOTHER and _IN_FULL.fullmatch(kinds):
+            yield row[0].start, row[-1].end
+        row, before = [], token.word
+
+
+def _kind(word: str) -> str:
+    """What a word adds to a number, in a letter: ones, teens, tens, hundred, thousand."""
+    if word in ("hundred", "thousand"):
+        return word[0]
+    value = lists.SMALL.get(word, 0)
+    known = word in lists.SMALL and word != "couple"
+    return ("o" if value < 10 else "n" if value < 20 else "y") if known and value else ""

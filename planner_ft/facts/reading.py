@@ -10,6 +10,7 @@ from typing import Any, Literal
 from planner_ft.facts import numbers, places
 from planner_ft.facts.geographic import Geographic, read_geographic, without_geographic
 from planner_ft.facts.numbers import THOROUGH
+from planner_ft.facts.numerals import spoken_whole
 from planner_ft.facts.places import Position
 from planner_ft.facts.together import AS_BEFORE, BARE, IN_PAIR, REREAD, Number
 from planner_ft.facts.units import base_of, named
@@ -98,10 +99,20 @@ class Facts:
                 )
                 if not (one.counts and not counted)
                 and one.start not in certain
+                and not self._is_part(one)
                 and not (one.rank == AS_BEFORE and one.start in inside)
                 and abs(one.value) < LARGEST
             )
         return self._numbers[unit]
+
+    def _is_part(self, number: Number) -> bool:
+        """Whether a number is a part of one that is said in full: 20 of "twenty two"."""
+        own, word = (number.start, number.stop), number.stop > number.start
+        return word and any(a <= own[0] and own[1] <= b and own != (a, b) for a, b in self._in_full)
+
+    @functools.cached_property
+    def _in_full(self) -> list[Span]:
+        return list(spoken_whole(numbers.read_rows(self._local)[0].tokens))
 
     @functools.cached_property
     def positions(self) -> tuple[Position, ...]:

@@ -255,6 +255,7 @@ def test_the_corners_of_an_area_are_no_things_and_four_piles_are() -> None:
         ("The met mast stands slap in the middle, 150,150.", "mast"),
         ("Film MV Alina, she's lying at 64,-22.", "MV Alina"),
         ("CIRCLE THE BUOY @ 40,20", "THE BUOY"),
+        ("Mind the moored workboat it's lying right in between at [5, 50]", "the moored workboat"),
     ],
 )
 def test_a_thing_is_named_with_a_clause_between(text: str, thing: str) -> None:

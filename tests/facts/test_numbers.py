@@ -233,7 +233,7 @@ VALUES = """
     two sixty nine metres | m | 2 9 60 69 269
     two sixty metres | m | 2 60 260
     twenty-five six metres | m | 6 25
-    two hundred sixty |  | 60 200 260
+    two hundred sixty |  | 260
     half a turn | deg | 0.5
     three quarters of the way round | deg | 0.75
     once round | deg |

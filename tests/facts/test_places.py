@@ -494,6 +494,7 @@ def test_three_decimals_with_a_side_are_degrees() -> None:
         ("UTM zone 32, E 573210 N 6021100. Go there", 54.3325, 10.1259),
         ("starts at 32V 581200 6398400.", 57.7204, 10.3632),
         ("to 33S 500000 6250000", -33.8904, 15.0),
+        ("to 32U E 571 240, N 6 020 310", 54.3257, 10.0954),
     ],
 )
 def test_utm_coordinates_are_geographic(text: str, latitude: float, longitude: float) -> None:
@@ -501,6 +502,12 @@ def test_utm_coordinates_are_geographic(text: str, latitude: float, longitude: f
     assert place.latitude == pytest.approx(latitude, abs=1e-4)
     assert place.longitude == pytest.approx(longitude, abs=1e-4)
     assert not read_positions(without_geographic(text))
+
+
+def test_utm_coordinates_without_a_zone_are_no_metres() -> None:
+    (place,) = read("the wreck, UTM: E 412 345, N 6 178 901. Go there").geographic
+    assert (place.latitude, place.longitude) == (None, None)
+    assert read("the wreck, UTM: E 412 345, N 6 178 901.").positions == ()
 
 
 def test_dictated_metres_are_not_geographic() -> None:

@@ -22,6 +22,8 @@ from planner_ft.decoding.constraints.grammar import Grammar, Symbol, Values
 from planner_ft.decoding.constraints.patterns import literal, quoted, regex
 from planner_ft.facts import Input, corrections
 from planner_ft.facts.geometry import Area, corners_of
+from planner_ft.facts.numbers import read_rows
+from planner_ft.facts.numerals import spoken_whole
 from planner_ft.facts.places import written_positions
 from planner_ft.facts.words import WORDS
 from planner_ft.support.files import compact_json
@@ -102,6 +104,7 @@ class Spans:
 
     def _read(self, text: str) -> None:
         first, matches, run = len(self._pieces), list(_PIECE.finditer(text)), 0
+        wholes = list(spoken_whole(read_rows(text)[0].tokens))
         gaps = [text[one.end() : two.start()] for one, two in itertools.pairwise(matches)]
         for number, match in enumerate(matches):
             word, before = match[0], text[match.start() - 1 : match.start()]
@@ -114,6 +117,10 @@ class Spans:
             begins = letter or ((before in QUOTES or not plain) and before != "_")
             ends = run % MOST_UNENDING == 0 and text[match.end() : match.end() + 1] != "_"
             ends = ends and not (after and word.lower() == "s" and before in ("'", "’"))
+            # No name ends within "ninety one".
+            own = [at for at in wholes if at[0] <= match.start() < at[1]]
+            begins &= all(match.start() == at[0] for at in own)
+            ends &= all(match.end() == at[1] for at in own)
             following = [(gap, 1) for gap in _written_gaps(after[0], word)] if after else []
             if after[1:] and after[0] in ("'", "’") and more[0][0].lower() == "s":
                 following += [(gap, 2) for gap in _written_gaps(after[1], "s")]

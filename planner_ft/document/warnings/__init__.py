@@ -78,6 +78,7 @@ CHECKS: tuple[Check, ...] = (
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
     *(
         directions.sides,
+        said.instead_of,
         said.crossed,
         said.clock_times,
         places.geographic,

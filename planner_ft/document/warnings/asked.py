@@ -135,7 +135,9 @@ def _taken_back(case: Case) -> dict[Ask, str]:
         for clause in (one for one in case.typed if not one.corrected):
             for match in ask.named.finditer(clause.text):
                 before = clause.text[max(0, match.start() - NEAR) : match.start()]
-                ruled_out = clause.excluded == clause.start
+                # "The report" behind "forget the diagnostics and" has no word that rules it out.
+                no = case.words["exclusion"].search(clause.text)
+                ruled_out = clause.excluded == clause.start if no is None else False
                 ruled_out |= case.words["exclusion"].search(before) is not None
                 last.pop(ask, None)
                 if ruled_out and clause.excluded is not None and clause.excluded >= clause.start:

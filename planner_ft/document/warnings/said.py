@@ -41,6 +41,7 @@ ARTICLE = 3  # characters between "back within" and its number: "a quarter of an
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b(?!\.)\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
+NOT = re.compile(r",?\s+(?:and )?(?:not|instead of|rather than)\s+", re.IGNORECASE)
 CORRECTED = 30  # characters between a value and its correction
 AT = re.compile(r"\bat $", re.IGNORECASE)
 OFF = re.compile(r" off (?:it|her|him|them|the|that|this)\b", re.IGNORECASE)
@@ -199,6 +200,16 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         bare = bare or number.value < 0 or _is_distance(number, case)
         if number.start in apart or ((bare or instead or behind) and not known):
             yield case.lost(number.start, number.end)
+
+
+def instead_of(case: Case) -> Iterator[Warning]:
+    """Values that the command wants in place of another one, which a task has: "35 m, not 10 m"."""
+    for one, other in itertools.pairwise(case.numbers):
+        between = NOT.fullmatch(case.text, one.end, other.start)
+        known = [*itertools.chain(*case.plan.owners)]
+        had, wanted = (any(near(at.value, by) for by in known) for at in (other, one))
+        if between and one.unit in (None, other.unit) and had and not wanted:
+            yield case.lost(one.start, other.end)
 
 
 def _sizes(case: Case) -> Iterator[list[Number]]:
