@@ -204,7 +204,7 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
             resumed = start + behind_it.end() if behind_it and not told else None
             excluded = start - 1 if told or instead else excluded
             # "Forget the diagnostics and the report."
-            if found and found[-1].excluded and _goes_on(command, found[-1], start, text):
+            if found and _goes_on(command, found[-1], start, text):
                 excluded = start
             found.append(Clause(start, end, text, excluded, corrected, resumed))
     return tuple(found)

@@ -137,7 +137,7 @@ def _taken_back(case: Case) -> dict[Ask, str]:
                 before = clause.text[max(0, match.start() - NEAR) : match.start()]
                 # "The report" behind "forget the diagnostics and" has no word that rules it out.
                 no = case.words["exclusion"].search(clause.text)
-                ruled_out = clause.excluded == clause.start if no is None else False
+                ruled_out = no is None and clause.excluded == clause.start
                 ruled_out |= case.words["exclusion"].search(before) is not None
                 last.pop(ask, None)
                 if ruled_out and clause.excluded is not None and clause.excluded >= clause.start:

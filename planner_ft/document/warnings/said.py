@@ -204,9 +204,9 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
 
 def instead_of(case: Case) -> Iterator[Warning]:
     """Values that the command wants in place of another one, which a task has: "35 m, not 10 m"."""
+    known = [*itertools.chain(*case.plan.owners)]
     for one, other in itertools.pairwise(case.numbers):
         between = NOT.fullmatch(case.text, one.end, other.start)
-        known = [*itertools.chain(*case.plan.owners)]
         had, wanted = (any(near(at.value, by) for by in known) for at in (other, one))
         if between and one.unit in (None, other.unit) and had and not wanted:
             yield case.lost(one.start, other.end)

@@ -155,6 +155,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
             (),
             "value-lost",
         ),
+        ("Skip the survey and the report, go to 9,9.", [to(9, 9), REPORT], (), "contradiction"),
         ("Circle the mast at 60,60 at 20 m, so 35 m not 20 m.", [orbit(360)], (), "value-lost"),
         (BY_WORDS, [grid(30, 5)], (), "value-lost"),
         (BY_WORDS, [grid(30, 30)], (), None),
