@@ -217,7 +217,7 @@ class GroundedValues(Values):
         if not self.areas:
             return self.position(grammar, without)
         stated = ((at.x, at.y) for at in written_positions(self._facts.text))
-        corners = {corner for area in self.areas for corner in corners_of(*area)}
+        corners = {at for area in self.areas for at in (area[0], *corners_of(*area))}
         known = [self._vocabulary.unresolved, *stated]
         return grammar.one_of(lark.written(at) for at in known if at not in {*corners, *without})
 

@@ -105,7 +105,7 @@ CHECKS: tuple[Check, ...] = (
         values.unsought,
     ),
     *(values.unmentioned, values.declined),
-    *(values.unsaid_skills, places.done_again, picked.elsewhere),
+    *(values.unsaid_skills, places.done_again, picked.at_corners, picked.elsewhere),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, said.harm, asked.other_words, asked.not_planned, values.unread)

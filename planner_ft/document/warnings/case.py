@@ -213,7 +213,7 @@ class PlanValues:
         read = [(place.x, place.y) for line in texts for place in read_positions(line)]
         corners = [tuple(corner) for polygon in self.polygons for corner in polygon]
         # A command that gives an area by its corners says these.
-        corners += [corner for task in tasks for corner in _area_corners(task["parameters"])]
+        corners += [corner for task in tasks for corner in area_corners(task["parameters"])]
         self.places = [*places, *gone, *read, *corners, *filter(is_place, self.limits)]
         prompted = [place for task in tasks for place in read_positions(task["task_prompt"])]
         meant = [*places, *corners, *filter(is_place, self.limits)]
@@ -303,7 +303,7 @@ def _spoken(line: str, stated: Container[tuple[float, ...]]) -> Iterator[float]:
             yield from (number.value, number.said)
 
 
-def _area_corners(values: Entry) -> list[tuple[float, float]]:
+def area_corners(values: Entry) -> list[tuple[float, float]]:
     """The corners of the area of a task that has sides and a middle."""
     middle = next(filter(is_place, values.values()), None)
     sides = [float(values[name]) for name in SIDES if is_number(values.get(name))]

@@ -1,4 +1,6 @@
-"""What the command has at one of several places ("circle the second"), and the plan elsewhere."""
+"""What the command has at one of several places ("circle the second"), and the plan elsewhere or at
+others, too.
+"""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -6,7 +8,15 @@ from dataclasses import dataclass
 
 from planner_ft.document.language import Ask, Clause, Data
 from planner_ft.document.track import Point, place_of
-from planner_ft.document.warnings.case import Case, Warning, quoted, same_place, warning
+from planner_ft.document.warnings.case import (
+    Case,
+    Warning,
+    area_corners,
+    quoted,
+    same_place,
+    spot,
+    warning,
+)
 from planner_ft.document.warnings.data import gathered_by
 from planner_ft.facts import Position
 from planner_ft.facts.places import rows_of
@@ -144,3 +154,17 @@ def _done(case: Case) -> Done:
 
 def _is_at(at: Point, places: Places) -> bool:
     return any(same_place(place, at) for place in places)
+
+
+def at_corners(case: Case) -> Iterator[Warning]:
+    """Ways to a corner of an area that the plan goes over whole, where nothing is done and the
+    command says it for the area alone.
+    """
+    known = case.vocabulary
+    corners = {spot(at) for task in case.tasks for at in area_corners(task["parameters"])}
+    behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["self"]
+    for task, arrival in zip(case.tasks, behind, strict=True):
+        at = place_of(task, known) if task["title"] == known.transit and arrival == "self" else None
+        said = [one for one in case.positions if at and same_place(one, at)]
+        if at and at != known.home and spot(at) in corners and len(said) == 1:
+            yield warning("value-not-said", "asked", task, about="asked")

@@ -87,3 +87,23 @@ def test_other_ordinals_and_what_is_asked_for_twice_pick_no_place(command: str) 
 def test_a_place_that_is_left_out_is_not_missing_from_its_row() -> None:
     command = "Go to 1,0, 3,0 and 5,0 in turn, skip the middle one."
     assert document([to(1), to(5)], command=command)["warnings"] == []
+
+
+@pytest.mark.parametrize(
+    ("behind", "tasks", "count"),
+    [
+        ("", [to(40)], 1),
+        (", then wait a minute at 40,0", [to(40), hold()], 0),
+        (", then go to 40,0", [to(40)], 0),
+        (", home", [to(0)], 0),
+    ],
+)
+def test_a_corner_of_a_surveyed_area_is_not_gone_to(
+    behind: str, tasks: list[dict[str, Any]], count: int
+) -> None:
+    values = {"center": [20, 10], "width": 40, "length": 20, "spacing": 10}
+    grid = task("BathymetryGridSurvey", values, None)
+    command = f"Sound the box 0,0 / 40,0 / 40,20 / 0,20, 10 m lines{behind}."
+    warnings = document([grid, *tasks], command=command)["warnings"]
+    asked = [one for one in warnings if "no words of the command" in one["text"]]
+    assert len(asked) == count
