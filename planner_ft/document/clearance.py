@@ -300,7 +300,7 @@ def _free(points: Sequence[Point], zones: Sequence[Structure]) -> Callable[[Poin
         squares = (legs**2).sum(-1)
         along = (off * legs).sum(-1) / np.where(squares, squares, 1.0)
         gaps = off - along.clip(0.0, 1.0)[..., None] * legs
-        near: Sequence[bool] = (np.hypot(gaps[..., 0], gaps[..., 1]) >= kept).all(0).tolist()
-        return near
+        clear: Sequence[bool] = (np.hypot(gaps[..., 0], gaps[..., 1]) >= kept).all(0).tolist()
+        return clear
 
     return free

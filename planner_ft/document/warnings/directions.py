@@ -8,12 +8,12 @@ from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, bearing, place_of
 from planner_ft.document.warnings.case import Case, Warning, lost
+from planner_ft.document.warnings.said import CORRECTED
 from planner_ft.facts import Number, near
 from planner_ft.facts.places import read_bearings
 from planner_ft.vocabulary import Entry
 
 ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
-CORRECTED = 30  # characters between a direction and its correction
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 
 
