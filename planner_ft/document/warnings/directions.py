@@ -14,12 +14,14 @@ from planner_ft.facts.places import read_bearings
 from planner_ft.vocabulary import Entry
 
 ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
+TURNED = 28  # characters before a direction in which the command says what is turned there
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 
 
 def sides(case: Case) -> Iterator[Warning]:
     """Directions of which the plan has nothing: one that takes the place of another ("the south
-    face, sorry, NORTH face"), and a side that is said last where the plan goes along another.
+    face, sorry, NORTH face"), one to be faced, and a side that is said last where the plan goes
+    along another.
     """
     found = read_bearings(case.text)
     for one, other in itertools.pairwise(found):
@@ -28,6 +30,11 @@ def sides(case: Case) -> Iterator[Warning]:
         if corrected and not near(one.value, other.value) and not _has(other, case):
             yield case.lost(other.start, other.end)
     along = any(case.vocabulary.task[one["title"]].pattern == "pass" for one in case.tasks)
+    for one in found:
+        before = case.text[max(0, one.start - TURNED) : one.start]
+        turned = case.words["faced"].search(before) and not ON_SIDE.match(case.text, one.end)
+        if turned and case.wants(one.start) and not _has(one, case):
+            yield case.lost(one.start, one.end)
     last = [one for one in found if along and ON_SIDE.match(case.text, one.end)]
     while last and case.wants(last[-1].start) and not _has(last[-1], case):
         one = last.pop()

@@ -169,6 +169,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ),
         ("Along the south face - sorry, NORTH face - 50 m, 5 m off.", [along("north")], (), None),
         (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
+        ("Hold at 9,9 with the bow to the south-west.", [to(9, 9), hold(60)], (), "value-lost"),
+        ("Head north to 9,9.", [to(9, 9)], (), None),
         (
             "Twice up and down between 1,0 and 9,0.",
             [to(1, 0), to(9, 0), to(1, 0)],
