@@ -15,6 +15,7 @@ from planner_ft.facts.words import SCALES, SMALL, WORDS
 
 SIGNS = ("minus", "negative", "plus", "comma")
 BINDING = (*range(10), *range(20, 100, 10))  # words that a digit behind them belongs to
+LEAST = 10  # the first number before a "comma" that is no name
 MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
 """Words of one place, of several in a row, and of a row with commas, that are looked at."""
 _AT = re.compile(
@@ -22,6 +23,7 @@ _AT = re.compile(
     r"|(?:position|waypoint)(?:\s+is)?)\s+(?:plus\s+)?$",
     re.IGNORECASE,
 )
+_OTHER = re.compile(r"\b(?:the|that|this|other|another|first|last|next)\s+$", re.IGNORECASE)
 _X = re.compile(r"(?<![a-z])x\s+(?:(?:is|equals)\s+)?$", re.IGNORECASE)
 _Y = re.compile(r",?\s+(?:and\s+)?y\s+(?:(?:is|equals)\s+)?", re.IGNORECASE)
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
@@ -53,7 +55,13 @@ def dictated_pairs(text: str) -> tuple[Pair, ...]:
     and a third one with a unit, of a size or a count ("at one ten eighty fifty metres off"), and
     those of a row ("twenty ten then forty ten", "ten comma fifty thirty comma fifty").
     """
-    found, known = list[Pair](), set[str]()
+    known = {text[start:end].casefold() for _x, _y, start, end in _pairs(text, set())}
+    return tuple(_pairs(text, known) if known else ())
+
+
+def _pairs(text: str, known: set[str]) -> list[Pair]:
+    """The coordinates of a text, those of words that are known to be coordinates elsewhere, too."""
+    found = list[Pair]()
     for group in _groups(text):
         # "One hundred thirty" can be one number or two; in "ten fifty and one hundred thirty" two.
         sure = len(group) > 1 and any(run.is_no_number for run in group)
@@ -62,10 +70,21 @@ def dictated_pairs(text: str) -> tuple[Pair, ...]:
             follows = bool(found) and _BESIDE.fullmatch(text, found[-1][3], run.start)
             words = text[run.start : run.end].casefold()
             at = follows or words in known or _AT.search(text, max(0, run.start - 24), run.start)
+            at = at or _has_comma(text, run)
             found += _by_axes(text, run)
             found += row or (_place(text, run) if at and len(run.parts) < 3 else [])
-            known |= {words} if found and found[-1][2:] == (run.start, run.end) else set()
-    return tuple(found)
+    return found
+
+
+def _has_comma(text: str, run: Run) -> bool:
+    """Whether a row of words is a number of ten and more, "comma" and a number: "seven comma three"
+    can be a name and something else, and "the other one fifty comma ten" another one.
+    """
+    if len(run.parts) != 2 or _OTHER.search(text, max(0, run.start - 24), run.start):
+        return False
+    paths = list(_at_comma(text, run))
+    bare = all(len(path) == 2 and not (path[1].unit or path[1].counts) for path in paths)
+    return bare and bool(paths) and abs(paths[0][0].said) >= LEAST
 
 
 def _place(text: str, run: Run) -> list[Pair]:

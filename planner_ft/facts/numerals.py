@@ -209,9 +209,10 @@ class Row:
         value, after = words[0]
         part = self.word(after)
         for hundreds in self._hundreds(index):  # "at one sixty comma one ten"
+            behind = hundreds[1] + (self.word(hundreds[1]) in ("metres", "meters", "metre"))
             if (
                 self.word(index - 1) in WORDS["before_hundreds"]
-                or self.word(hundreds[1]) == "comma"
+                or self.word(behind) in WORDS["behind_hundreds"]
             ):
                 yield hundreds
         if len(said) > 2 or sure:

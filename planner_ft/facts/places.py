@@ -25,6 +25,12 @@ _WRITTEN_PAIR = re.compile(
     re.IGNORECASE,
 )
 """Two numbers that are certainly coordinates, and no other values."""
+_COMMAS = re.compile(
+    r"(?<!\w)x\s?[=:]?\s?(-?\d+),(\d{1,2})(?![\d,])\W{0,4}(?:and )?y\s?[=:]?\s?(-?\d+),(\d{1,2})"
+    r"(?![\d,])",
+    re.IGNORECASE,
+)
+"""Axes with decimal commas: "x = 42,5; y = 18,5"."""
 PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+)?")
 BESIDE = re.compile(r"[\s,;/\])\[(]*(?:and|to|then)?[\s,;/\])\[(]*")
 """What stands between the positions of a row."""
@@ -173,6 +179,9 @@ def read_positions(text: str) -> tuple[Position, ...]:
 def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]:
     """The positions that numbers of a text can be, the plainest first."""
     whole = [Position(*pair, certain=True) for pair in dictated_pairs(text)]
+    for at in _COMMAS.finditer(text):
+        x, y = float(f"{at[1]}.{at[2]}"), float(f"{at[3]}.{at[4]}")
+        whole.append(Position(x, y, at.start(1), at.end(), certain=True))
     found, taken = dict.fromkeys(whole, WRITTEN), list(whole)
     for first, second in pairs((one for one in numbers if _is_metric(text, one)), MOST_BETWEEN):
         start, end = first.start, second.end
