@@ -69,8 +69,8 @@ def _pairs(text: str, known: set[str]) -> list[Pair]:
             row = _row(text, run) if sure or len(run.parts) > 2 else []
             follows = bool(found) and _BESIDE.fullmatch(text, found[-1][3], run.start)
             words = text[run.start : run.end].casefold()
-            at = follows or words in known or _AT.search(text, max(0, run.start - 24), run.start)
-            at = at or _has_comma(text, run)
+            before = _AT.search(text, max(0, run.start - 24), run.start)
+            at = follows or before or words in known or _has_comma(text, run)
             found += _by_axes(text, run)
             found += row or (_place(text, run) if at and len(run.parts) < 3 else [])
     return found

@@ -540,6 +540,8 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("to two hundred and fifty comma one hundred and ten", (250, 110)),
         ("dock at five five please", (5, 5)),
         ("down to x one eighty y forty ten metres off", (180, 40)),
+        ("visit one hundred comma fifty", (100, 50)),
+        ("visit x = 42,5 ; y = -18,25", (42.5, -18.25)),
         ("head for ninety zero hold there two minutes", (90, 0)),
         ("to fifty comma one twenty four times", (50, 120)),
         ("at minus fifty comma seventy one full circle", (-50, 70)),

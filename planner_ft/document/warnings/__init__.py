@@ -10,6 +10,7 @@ from planner_ft.document.warnings import (
     asked,
     data,
     directions,
+    limits,
     picked,
     places,
     repeats,
@@ -61,7 +62,8 @@ def answers(case: Case) -> Iterator[Warning]:
 
 CHECKS: tuple[Check, ...] = (
     answers,
-    *(route.broken_limits, route.close_structures, places.beside, route.open_places, route.order),
+    *(limits.broken, limits.unplaced, limits.close_structures, places.beside),
+    *(route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     said.harm,
     *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),

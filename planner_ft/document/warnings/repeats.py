@@ -35,7 +35,7 @@ def intervals(case: Case) -> Iterator[Warning]:
 
 
 def each(case: Case) -> Iterator[Warning]:
-    """Measures that a clause gives for each of several, and one task of several alone has."""
+    """Measures that a clause gives for each of several, and one task or limit alone has."""
     for clause in case.clauses:
         start = clause.spans(case.words["each"])
         at = next((place for place, _end in start), None)
@@ -51,7 +51,9 @@ def each(case: Case) -> Iterator[Warning]:
             for owner in case.plan.owners
             if all(any(near(one.value, other) for other in owner) for one in inside)
         ]
-        alone = inside and len(having) == 1 and len(case.positions) > 1
+        kept = [one["values"] for one in case.limits if "position" in one["values"]]
+        kept = [own for own in kept if any(one.value == own.get("distance") for one in inside)]
+        alone = inside and len(having) + len(kept) == 1 and len(case.positions) > 1
         if alone and not timed and not clause.corrected:
             words = quoted(clause.text.strip(" ,;."))
             yield warning("repeat-lost", "each", about=words.casefold(), words=words)

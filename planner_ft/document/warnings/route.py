@@ -1,26 +1,23 @@
-"""Whether the vehicle can carry the plan out, and what its track breaks: order, endurance, return;
-limits, stand-offs, boundaries, area, reach; and whether steps perform their task: a grid covers its
-area, a pass has its length, a panorama looks in all its directions.
+"""Whether the vehicle can carry the plan out: order, endurance, return, boundaries, area, reach; and
+whether steps perform their task: a grid covers its area, a pass has its length, a panorama looks in
+all its directions.
 """
 
 import functools
-import itertools
 import math
 import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause
-from planner_ft.document.structures import MOVING, Structure, close_legs, closed_area, way_off
-from planner_ft.document.track import Leg, Point, place_of, shown, stated
-from planner_ft.document.warnings.case import Case, Warning, named, skills_of, warning
-from planner_ft.document.warnings.data import asked_skills
+from planner_ft.document.structures import MOVING
+from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.warnings.case import Case, Warning, named, warning
 from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
-from planner_ft.planning.limits import last_away, time_left, without_limits
+from planner_ft.planning.limits import last_away, without_limits
 from planner_ft.planning.shapes import goal_of, shape_problem
 from planner_ft.vocabulary import Entry, Vocabulary
-from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import is_number
 from planner_ft.vocabulary.replay import START, Condition, stops
 
@@ -35,10 +32,10 @@ MUCH = 0.5  # the part of the endurance from which parts of unknown length matte
 MOST_LISTED = 6
 MEASURES = ("m", "s", "m/s", "count")  # units of what cannot be nothing; an angle and a share can
 TURNS = ("turn-to", "turn-by")
-TOLERANCE = 0.5
-"""Metres by which a leg may miss a limit, and beyond a boundary that are its line still."""
+TOLERANCE = 0.5  # metres beyond a boundary that are its line still
+BACK = re.compile(r"(?i)(?P<way>.*[\d\])])\s+(?:and|then)\s+back(?:\s+[a-z]+)?\s*", re.DOTALL)
+CLOSE = 40  # characters before "and back" in which its way is said
 INSIDE = re.compile(r"(?i)\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b")
-Found = tuple[str, str] | None  # (task, how) of the first thing that breaks a limit
 
 
 def open_places(case: Case) -> Iterator[Warning]:
@@ -80,6 +77,9 @@ def missing_return(case: Case) -> Iterator[Warning]:
 def _asks_for_home(clause: Clause, case: Case) -> bool:
     """Whether a clause speaks of coming home, and not of a way that begins there."""
     away = [clause.start + at.end() for at in case.words["from_home"].finditer(clause.text)]
+    # "To 180,0 and back please", but not "from 0,40 to 180,0 and back".
+    if back := BACK.fullmatch(case.command, max(0, clause.start - CLOSE), clause.end):
+        return not clause.corrected and len(read_positions(back["way"])) == 1
     return any(end not in away for _start, end in clause.spans(case.words["home"]))
 
 
@@ -153,107 +153,6 @@ def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
         few = is_number(count) and turns < count - 1
         return f"it turns {turns} times for {count:g} sectors" if few else None
     return shape_problem(task, _own_waypoints(task, known), known)
-
-
-# ---------------------------------------------------------------- limits and stand-offs
-
-
-def broken_limits(case: Case) -> Iterator[Warning]:
-    """One per limit that is broken."""
-    seconds = (case.document.get("estimate") or {}).get("seconds", 0)
-    for limit in case.limits:
-        values, held = limit["values"], [case.tasks[place - 1] for place in limit["tasks"]]
-        most = time_left(values) if limit["kind"] == "return" else values.get("duration")
-        about = f"{limit['kind']}:{limit['text'].casefold()}"
-        words = {"limit": limit["text"].rstrip("."), "about": about}
-        if most is not None and len(held) == len(case.tasks):
-            if seconds > most:
-                yield warning("limit-broken", "plan", seconds=seconds, **words)
-        elif found := _broken(limit, held, case):
-            yield warning("limit-broken", "task", case.by_id[found[0]], how=found[1], **words)
-
-
-def _broken(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
-    kind, values, names = limit["kind"], limit["values"], {task["id"] for task in held}
-    legs = [leg for leg in case.path.legs if leg.points and leg.task in names]
-    if kind in ("fence", "keep_out_area"):
-        return _area(kind, values["polygon"], legs)
-    if kind == "keep_out" and "position" in values:
-        return _too_close(values, legs)
-    if kind == "distance":
-        home = case.vocabulary.home
-        away = [(math.dist(point, home), leg.task) for leg in legs for point in leg.points]
-        farthest, name = max(away, default=(0.0, ""))
-        too_far = farthest > values["distance"] + TOLERANCE
-        return (name, f"goes {farthest:.0f} m away from home") if too_far else None
-    if kind == "speed":
-        for task in held:
-            for speed in stated(task, "m/s", case.vocabulary).values():
-                if speed is not None and speed > values["speed"]:
-                    return task["id"], f"goes at {speed:g} m/s"
-    return _recording(limit, held, case) if kind == "no_recording" else None
-
-
-def _area(kind: str, corners: Any, legs: list[Leg]) -> Found:
-    from shapely import LineString, Point, Polygon, make_valid
-
-    inside = kind == "fence"
-    area = make_valid(Polygon(corners)).buffer(TOLERANCE) if inside else closed_area(corners)
-    for leg in legs:
-        line = LineString(leg.points) if len(leg.points) > 1 else Point(leg.points[0])
-        if inside and not area.covers(line):
-            ends = (point for point in leg.points if not area.covers(Point(point)))
-            at = next(ends, None)
-            where = f"goes to {shown(at)}, outside of it" if at else "leaves it on the way"
-            return leg.task, where
-        if not inside and area.intersects(line):
-            return leg.task, f"enters it on the way to {shown(leg.points[-1])}"
-    return None
-
-
-def _too_close(values: Entry, legs: list[Leg]) -> Found:
-    place, found = (values["position"][0], values["position"][1]), []
-    for leg in legs:
-        pairs = itertools.pairwise(leg.points) if leg.kind in MOVING else [(leg.points[0],) * 2]
-        found.append((min(way_off(place, *pair) for pair in pairs), leg.task))
-    nearest, task = min(found, default=(math.inf, ""))
-    slack = max(TOLERANCE, 0.005 * values["distance"])
-    return (task, f"comes within {nearest:.0f} m") if nearest < values["distance"] - slack else None
-
-
-def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
-    """A step that records: anywhere, or where the task prompt names the place."""
-    known = load_limits(case.vocabulary)["no_recording"].forbids
-    forbidden = {*known} - asked_skills(case)
-    thing = limit["values"].get("object", "")
-    for task in tasks:
-        prompt = without_limits(task["task_prompt"], case.vocabulary)
-        if not thing or thing.casefold() in prompt.casefold():
-            for _role, skill in skills_of(task):
-                if skill["name"] in forbidden:
-                    return task["id"], f"records ({skill['name']})"
-    return None
-
-
-def close_structures(case: Case) -> Iterator[Warning]:
-    """One per structure that a task comes too close to and that no limit names; of what reaches
-    from one place to another its nearest part.
-    """
-    limited = [limit["values"] for limit in case.limits]
-    told = {one.get("object") for one in limited if "position" not in one}
-    told |= {shown(one["position"]) for one in limited if "position" in one}
-    nearest = dict[tuple[str, str], tuple[float, Structure]]()
-    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
-        at, bar = shown(structure.position), case.words["bars"].fullmatch(structure.name)
-        key, found = (name, structure.name if bar else at), (metres, structure)
-        nearest[key] = min(nearest.get(key, found), found, key=lambda one: one[0])
-    for (name, _key), (metres, structure) in nearest.items():
-        at = shown(structure.position)
-        if structure.name not in told and at not in told:
-            where = structure.name if structure.name == at else f"{structure.name} at {at}"
-            values: dict[str, Any] = {"metres": metres, "name": where}
-            values["standoff"] = structure.standoff
-            yield warning("structure-close", task=case.by_id[name], about=at, **values)
 
 
 # ---------------------------------------------------------------- boundaries, area, reach

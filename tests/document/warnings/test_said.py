@@ -60,6 +60,8 @@ NINETY = "go to eighty forty sorry no one hundred eighty forty and wait two minu
 CORNERS = "run down to x one eighty y forty"
 FOUR_SIDES = "Along the north side, then the east side, then the west side, 50 m, 5 m off."
 BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
+PILES = "To 9,0. Two piles on the way, 60,5 and 120,-5, give both of them 25 m."
+KEPT = "The vehicle stays at least 25 m from [60, 5]."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
 BACKS = [to(1, 1), to(9, -34)]
@@ -171,6 +173,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
         ("Hold at 9,9 with the bow to the south-west.", [to(9, 9), hold(60)], (), "value-lost"),
         ("Head north to 9,9.", [to(9, 9)], (), None),
+        (PILES, [to(9, 0), to(120, -5)], (KEPT,), "repeat-lost"),
+        ("Not a knot over 3 kn to 9,9.", [to(9, 9)], (), "limit-lost"),
         (
             "Twice up and down between 1,0 and 9,0.",
             [to(1, 0), to(9, 0), to(1, 0)],

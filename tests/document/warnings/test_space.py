@@ -59,6 +59,27 @@ def test_a_limit_of_space_is_kept_to_half_a_metre(
     )
 
 
+@pytest.mark.parametrize(
+    ("command", "limit", "near"),
+    [
+        ("Pass pile D2 at [50, 5], 25 m off any pile being driven.", "a pile being driven", True),
+        ("A round concrete dolphin stands bang in the middle (50, 5).", "the dolphin stands", True),
+        (
+            "A round concrete dolphin stands bang in the middle (50, 90).",
+            "the dolphin stands",
+            False,
+        ),
+        ("Pass the buoy at [50, 5], 25 m off any pile being driven.", "a pile being driven", False),
+    ],
+)
+def test_a_limit_without_a_place_is_broken_where_what_it_names_may_be(
+    command: str, limit: str, near: bool
+) -> None:
+    text = f"The vehicle stays at least 25 m from {limit}."
+    plan = document([go((100, 0))], command=command, constraints=[text])
+    assert any("[50, 5], where" in one for one in told(plan, "limit-broken")) is near
+
+
 def test_an_area_without_an_inside_is_a_line_that_is_not_crossed() -> None:
     line = "The vehicle stays outside [50, -20], [50, -20], [50, 20]."
     assert broken(line, go((50, 0)))

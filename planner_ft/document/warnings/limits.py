@@ -1,0 +1,161 @@
+"""What the track of a plan breaks: limits, and the stand-offs of structures."""
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from planner_ft.document.structures import (
+    MOVING,
+    Structure,
+    close_legs,
+    closed_area,
+    structures,
+    way_off,
+)
+from planner_ft.document.track import Leg, Point, shown, stated
+from planner_ft.document.warnings.case import Case, Warning, skills_of, warning
+from planner_ft.document.warnings.data import asked_skills
+from planner_ft.planning.limits import time_left, without_limits
+from planner_ft.planning.locations import ARTICLE
+from planner_ft.vocabulary import Entry
+from planner_ft.vocabulary.limits import load_limits
+
+TOLERANCE = 0.5  # metres by which a leg may miss a limit
+LONGEST_ARTICLE = 3  # letters of words that name nothing
+Found = tuple[str, str] | None  # (task, how) of the first thing that breaks a limit
+
+
+def broken(case: Case) -> Iterator[Warning]:
+    """One per limit that is broken."""
+    seconds = (case.document.get("estimate") or {}).get("seconds", 0)
+    for limit in case.limits:
+        values, held = limit["values"], [case.tasks[place - 1] for place in limit["tasks"]]
+        most = time_left(values) if limit["kind"] == "return" else values.get("duration")
+        about = f"{limit['kind']}:{limit['text'].casefold()}"
+        words = {"limit": limit["text"].rstrip("."), "about": about}
+        if most is not None and len(held) == len(case.tasks):
+            if seconds > most:
+                yield warning("limit-broken", "plan", seconds=seconds, **words)
+        elif found := _how(limit, held, case):
+            yield warning("limit-broken", "task", case.by_id[found[0]], how=found[1], **words)
+
+
+def unplaced(case: Case) -> Iterator[Warning]:
+    """Limits on a thing whose place is not known, where the vehicle comes too close to one that it
+    may be: a thing of the command with a word of its name, or what a clause tells of it.
+    """
+    for limit in case.limits:
+        values = limit["values"]
+        if "position" in values or not {"object", "distance"} <= values.keys():
+            continue
+        names = {case.tasks[place - 1]["id"] for place in limit["tasks"]}
+        legs = [leg for leg in case.path.legs if leg.points and leg.task in names]
+        for place in _meant(values["object"], case):
+            if found := _too_close({**values, "position": place}, legs):
+                how = f"{found[1]} of {shown(place)}, where {values['object']} may be"
+                words = {"limit": limit["text"].rstrip("."), "about": f"{how}:{limit['text']}"}
+                yield warning("limit-broken", "task", case.by_id[found[0]], how=how, **words)
+                break
+
+
+def _meant(thing: str, case: Case) -> Iterator[Point]:
+    """The places where a thing may be."""
+    own = _nouns(thing)
+    for one in structures(case.document, case.vocabulary):
+        if own & _nouns(one.name):
+            yield one.position
+    for place in case.positions:
+        clause = case.clause_at(place.start)
+        before = case.text[clause.start : place.start] if clause else ""
+        told = case.words["tells"].search(before)
+        if told and own & _nouns(before[: told.start()]):
+            yield place.x, place.y
+
+
+def _nouns(name: str) -> set[str]:
+    words = ARTICLE.sub("", name).casefold().split()
+    return {word.removesuffix("s") for word in words if len(word) > LONGEST_ARTICLE}
+
+
+def _how(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
+    kind, values, names = limit["kind"], limit["values"], {task["id"] for task in held}
+    legs = [leg for leg in case.path.legs if leg.points and leg.task in names]
+    if kind in ("fence", "keep_out_area"):
+        return _area(kind, values["polygon"], legs)
+    if kind == "keep_out" and "position" in values:
+        return _too_close(values, legs)
+    if kind == "distance":
+        home = case.vocabulary.home
+        away = [(math.dist(point, home), leg.task) for leg in legs for point in leg.points]
+        farthest, name = max(away, default=(0.0, ""))
+        too_far = farthest > values["distance"] + TOLERANCE
+        return (name, f"goes {farthest:.0f} m away from home") if too_far else None
+    if kind == "speed":
+        for task in held:
+            for speed in stated(task, "m/s", case.vocabulary).values():
+                if speed is not None and speed > values["speed"]:
+                    return task["id"], f"goes at {speed:g} m/s"
+    return _recording(limit, held, case) if kind == "no_recording" else None
+
+
+def _area(kind: str, corners: Any, legs: list[Leg]) -> Found:
+    from shapely import LineString, Point, Polygon, make_valid
+
+    inside = kind == "fence"
+    area = make_valid(Polygon(corners)).buffer(TOLERANCE) if inside else closed_area(corners)
+    for leg in legs:
+        line = LineString(leg.points) if len(leg.points) > 1 else Point(leg.points[0])
+        if inside and not area.covers(line):
+            ends = (point for point in leg.points if not area.covers(Point(point)))
+            at = next(ends, None)
+            where = f"goes to {shown(at)}, outside of it" if at else "leaves it on the way"
+            return leg.task, where
+        if not inside and area.intersects(line):
+            return leg.task, f"enters it on the way to {shown(leg.points[-1])}"
+    return None
+
+
+def _too_close(values: Entry, legs: list[Leg]) -> Found:
+    place, found = (values["position"][0], values["position"][1]), []
+    for leg in legs:
+        pairs = itertools.pairwise(leg.points) if leg.kind in MOVING else [(leg.points[0],) * 2]
+        found.append((min(way_off(place, *pair) for pair in pairs), leg.task))
+    nearest, task = min(found, default=(math.inf, ""))
+    slack = max(TOLERANCE, 0.005 * values["distance"])
+    return (task, f"comes within {nearest:.0f} m") if nearest < values["distance"] - slack else None
+
+
+def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
+    """A step that records: anywhere, or where the task prompt names the place."""
+    known = load_limits(case.vocabulary)["no_recording"].forbids
+    forbidden = {*known} - asked_skills(case)
+    thing = limit["values"].get("object", "")
+    for task in tasks:
+        prompt = without_limits(task["task_prompt"], case.vocabulary)
+        if not thing or thing.casefold() in prompt.casefold():
+            for _role, skill in skills_of(task):
+                if skill["name"] in forbidden:
+                    return task["id"], f"records ({skill['name']})"
+    return None
+
+
+def close_structures(case: Case) -> Iterator[Warning]:
+    """One per structure that a task comes too close to and that no limit names; of what reaches
+    from one place to another its nearest part.
+    """
+    limited = [limit["values"] for limit in case.limits]
+    told = {one.get("object") for one in limited if "position" not in one}
+    told |= {shown(one["position"]) for one in limited if "position" in one}
+    nearest = dict[tuple[str, str], tuple[float, Structure]]()
+    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
+        at, bar = shown(structure.position), case.words["bars"].fullmatch(structure.name)
+        key, found = (name, structure.name if bar else at), (metres, structure)
+        nearest[key] = min(nearest.get(key, found), found, key=lambda one: one[0])
+    for (name, _key), (metres, structure) in nearest.items():
+        at = shown(structure.position)
+        if structure.name not in told and at not in told:
+            where = structure.name if structure.name == at else f"{structure.name} at {at}"
+            values: dict[str, Any] = {"metres": metres, "name": where}
+            values["standoff"] = structure.standoff
+            yield warning("structure-close", task=case.by_id[name], about=at, **values)
