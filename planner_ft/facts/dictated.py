@@ -19,19 +19,23 @@ LEAST = 10  # the first number before a "comma" that is no name
 MOST_WORDS, MOST_BARE, LONGEST_ROW = 12, 16, 60
 """Words of one place, of several in a row, and of a row with commas, that are looked at."""
 _AT = re.compile(
-    r"\b(?:at|to|for|via|near|around|from|between|on|cent(?:re|er)"
-    r"|(?:position|waypoint)(?:\s+is)?)\s+(?:plus\s+)?$",
+    r"(?:@|\b(?:at|to|for|via|near|around|from|between|on|visit|pos|cent(?:re|er)"
+    r"|(?:position|waypoint)(?:\s+is)?))\s+(?:plus\s+)?$",
     re.IGNORECASE,
 )
 _OTHER = re.compile(r"\b(?:the|that|this|other|another|first|last|next)\s+$", re.IGNORECASE)
-_X = re.compile(r"(?<![a-z])x\s+(?:(?:is|equals)\s+)?$", re.IGNORECASE)
-_Y = re.compile(r",?\s+(?:and\s+)?y\s+(?:(?:is|equals)\s+)?", re.IGNORECASE)
+_X = re.compile(r"(?<![a-z])x\s+(?:(?:is|equals|of)\s+)?$", re.IGNORECASE)
+_Y = re.compile(r",?\s+(?:and\s+)?y\s+(?:(?:is|equals|of)\s+)?", re.IGNORECASE)
 _JOINT = re.compile(r"\s+(?:(?:comma|plus)\s+)*")
 _COMMA = re.compile(r"\s+comma\s+")
 _INSTEAD = "|".join(sorted(WORDS["instead"])).replace("_", r"\s+")
 _BESIDE = re.compile(rf"(?:\s*,)?\s+(?:(?:and|then|and then|to)\s+|(?:(?:{_INSTEAD}),?\s+)+)?")
 _BY = re.compile(r"\s+by\s")
-_TIMES = re.compile(r"\s+times\b")
+TIMES = re.compile(r"\s+(?:more|times|laps?|rounds?|circuits?|loops?|orbits?|circles?|turns?)\b")
+_LAST_ONE = re.compile(r"\s+one$", re.IGNORECASE)
+_SINGLE = re.compile(
+    r"\s+(?:full )?(?:minute|second|hour|met(?:re|er)|knot|lap|round|circle|loop)\b"
+)
 _SCALE = re.compile(rf"(?:{'|'.join(SCALES)})\b", re.I)
 
 Pair = tuple[float, float, int, int]  # x, y, start, end
@@ -95,8 +99,8 @@ def _place(text: str, run: Run) -> list[Pair]:
     if len(text[start:end].split()) > MOST_WORDS:
         return []
     paths = list(_paths(text, run.numbers, start, end))
-    times = _TIMES.match(text, end) is not None
-    whole = list(_at_comma(text, run)) if len(run.parts) == 2 and not times else []
+    times = TIMES.match(text, end) is not None
+    whole = list(_at_comma(text, run)) if len(run.parts) == 2 else []
     pairs = {(path[0].said, path[1].said, start, path[1].stop) for path in whole}
     if len(pairs) == 1 and not any(path[1].unit or path[1].counts for path in whole):
         return list(pairs)  # "one ten comma minus sixty / fifteen"
@@ -123,10 +127,12 @@ def _by_axes(text: str, run: Run) -> list[Pair]:
     between = _Y.match(text, run.end) if _X.search(text, 0, run.start) else None
     firsts = [path[0] for path in _paths(text, run.numbers, run.start, run.end, 1)]
     others = [one for one in read_all(text) if between and one.start == between.end()]
-    longest = [one for one in others if one.stop == max(other.stop for other in others)]
-    if len(firsts) != 1 or len(longest) != 1 or any(one.unit for one in others):
+    plain = [one for one in others if not (one.unit or TIMES.match(text, one.stop))]
+    longest = max((one.stop for one in plain), default=0)
+    seconds = {one.said for one in plain if one.stop == longest}
+    if len(firsts) != 1 or len(seconds) != 1 or any(one.unit == "m" for one in others):
         return []
-    return [(firsts[0].said, longest[0].said, run.start, longest[0].stop)]
+    return [(firsts[0].said, seconds.pop(), run.start, longest)]
 
 
 def _at_comma(text: str, run: Run) -> Iterator[list[Number]]:
@@ -136,9 +142,16 @@ def _at_comma(text: str, run: Run) -> Iterator[list[Number]]:
     before, behind = run.parts
     firsts = list(_paths(text, run.numbers, *before, 1))
     seconds = list(_paths(text, run.numbers, *behind, 2))
-    plain = [path for path in seconds if len(path) == 1 and not path[0].unit]
+    more = [path for path in seconds if len(path) == 2]
+    alone = [path for path in seconds if len(path) == 1]
+    times = TIMES.match(text, run.end) is not None
+    # "Fifty comma one twenty / four times", "ten comma forty / five minutes".
+    if times or (alone and all(path[0].unit not in (None, "m") for path in alone)):
+        plain = more
+    else:
+        plain = [path for path in alone if not path[0].unit] or seconds
     for first in firsts:
-        yield from (first + second for second in plain or seconds)
+        yield from (first + second for second in plain)
 
 
 def _row(text: str, run: Run) -> list[Pair]:
@@ -149,7 +162,7 @@ def _row(text: str, run: Run) -> list[Pair]:
     bare = len(run.parts) == 1
     if bare and len(text[run.start : run.end].split()) > MOST_BARE:
         return []
-    if _TIMES.match(text, run.end) or _BY.match(text, run.end):
+    if TIMES.match(text, run.end) or _BY.match(text, run.end):
         return []
     for place, (start, end) in enumerate(run.parts):
         inner = 0 < place < len(run.parts) - 1
@@ -251,7 +264,9 @@ def _paths(
     for number in starts.get(place, ()):
         # "One fifty one / hundred", "one / fifty one hundred".
         large = abs(number.said) >= 1000 and "thousand" not in text[place : number.stop].lower()
-        if _SCALE.match(text, place) or large:
+        # "Forty / one minute".
+        lone = _LAST_ONE.search(text, place, number.stop) and _SINGLE.match(text, number.stop)
+        if _SCALE.match(text, place) or large or lone:
             continue
         if number.stop == end:
             yield [number]

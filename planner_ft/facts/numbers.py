@@ -10,7 +10,7 @@ from planner_ft.facts import words as lists
 from planner_ft.facts.numerals import AND, NUMERALS, Row
 from planner_ft.facts.together import AS_BEFORE, BARE, REREAD, WRITTEN, Number, sums, with_units
 from planner_ft.facts.units import base_of, named
-from planner_ft.facts.words import UNITS, WORDS, is_known
+from planner_ft.facts.words import SMALL, UNITS, WORDS, is_known
 
 THOROUGH = 6000
 """Characters of a text whose misspelt words are put right; what follows is read as it stands."""
@@ -45,6 +45,8 @@ _BY_AXES = re.compile(
     re.IGNORECASE,
 )
 """Coordinates, whose hyphens are signs: "E60 N-25"."""
+_FREE = re.compile(r"(?:[,/;=(\[] ?|\b(?:to|at|x|y) )[-−–] $", re.IGNORECASE)  # "to - 85"
+_FREE_TOO = re.compile(r"\d+(?:\.\d+)?\s?[,;/]\s?[-−–] \d")  # "- 85, - 40"
 LONGEST_NAME = 24  # characters of a name before its last figures
 _THINGS = re.compile(r"[ -]([a-z]+s)\b(?!['’])", re.IGNORECASE)
 
@@ -210,7 +212,8 @@ def _sign(row: Row, index: int) -> int:
     (before, start, end), first = row.tokens[index - 1], row.tokens[index].start
     if before in ("minus", "negative"):
         return first - start
-    if before not in ("-", "−", "–") or end != first:
+    free = _FREE.search(row.text, 0, first) or _FREE_TOO.match(row.text, first)
+    if before not in ("-", "−", "–") or not (end == first or free):
         return 0
     # A sign, and no hyphen: nothing before it, or no letter or digit, or the name of an axis.
     left = row.text[max(0, start - 2) : start].lower()
@@ -233,10 +236,14 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
 
     bare = number(value, None, value, after)
     unit, behind = row.unit(after)
+    # "At 85,40 a minute" is no 40 minutes.
+    article = words[0] in ("a", "an") and row.written(after).islower()
+    whole = value == int(value) or "." in row.written(after - 1)
+    apart = article and whole and _is_second(row, first)
     if words[0] in ("m", "min") and words[1].isdigit() and words[2] in ("s", "sec"):  # 3m30s
         yield number(60 * value + float(words[1]), "s", value, after + 3)
     # "40S" is a coordinate.
-    elif unit is None or row.written(behind - 1) == "S":
+    elif unit is None or apart or row.written(behind - 1) == "S":
         yield bare
         if rare := _RARE.match(row.text, stop):
             word = (rare[1] or rare[2]).lower()
@@ -254,13 +261,21 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
                 yield number(value * unit[1] / time[1], "m/s", value, behind + 1)
             if fraction and row.word(more) in WORDS["bare_units"]:
                 yield number(value * unit[1], unit[0], value, behind)
-        # "From 22/0 a kilometre", "drift 4 an hour".
-        if (
-            words[0] in ("a", "an")
-            and row.written(after).islower()
-            and row.word(after - 1)[-1:].isdigit()
-        ):
+        # "Drift 4 an hour".
+        if article and row.word(after - 1)[-1:].isdigit():
             yield bare
+
+
+def _is_second(row: Row, index: int) -> bool:
+    """Whether a number stands behind another one, as the second of two coordinates does."""
+    index -= row.word(index - 1) in ("-", "−", "–", "minus", "negative")
+    before = row.word(index - 1)
+    return (
+        before in WORDS["before_second"]
+        or before in AXES
+        or before in SMALL
+        or before[:1].isdigit()
+    )
 
 
 def _rate(row: Row, index: int) -> tuple[float, int]:

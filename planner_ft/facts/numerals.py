@@ -178,7 +178,8 @@ class Row:
             if found := unit_at(self.text, start, letters=self.letters):
                 behind = bisect.bisect_left(self.tokens, found[1], key=lambda token: token.start)
                 return found[0], behind
-            index += passed < PASSED and self.word(index) in WORDS["beside_unit"]
+            dash = self.word(index) == "-" and self.word(index + 1) in ("a", "an")
+            index += passed < PASSED and self.word(index) in WORDS["beside_unit"] and not dash
         return UNITS.get(self.word(index)), index + 1
 
     def bare_unit(self, index: int) -> bool:
@@ -217,7 +218,7 @@ class Row:
                 yield hundreds
         if len(said) > 2 or sure:
             yield radio[0]
-        elif part in PARTS or self._is_part(after):
+        elif (part in PARTS and (part != "half" or value == 1)) or self._is_part(after):
             yield value * {**lists.ORDINALS, **PARTS}[part], after + 1
         else:
             yield from self._with_fraction(value, after)

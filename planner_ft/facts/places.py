@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from planner_ft.facts.dictated import dictated_pairs
+from planner_ft.facts.dictated import TIMES, dictated_pairs
 from planner_ft.facts.geographic import without_geographic
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.together import BY, REREAD, WRITTEN, Number, pairs
@@ -36,9 +36,9 @@ BESIDE = re.compile(r"[\s,;/\])\[(]*(?:and|to|then)?[\s,;/\])\[(]*")
 """What stands between the positions of a row."""
 _BETWEEN = re.compile(
     rf"(?:[\s,;:/=]|(?<!\|)\|(?!\|)|comma|plus|and|by"
-    rf"|(?<![a-z])[xy](?:\s(?:equals|is))?(?![a-z])|{_METRES}"
+    rf"|(?<![a-z])[xy](?:\s(?:equals|is|of))?(?![a-z])|{_METRES}"
     rf"|(?:(?:to )?the |due )?"
-    rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|[-−–(])*",
+    rf"(?:{_DIRECTION})|(?:of|from) (?:home|base|here|(?:the )?origin)|(?<=[,;/])\+|[-−–(])*",
     re.IGNORECASE,
 )
 _DIRECTED = re.compile(rf"\s*(?:{_METRES})?\s*(?:(?:to )?the |due )?({_DIRECTION})", re.IGNORECASE)
@@ -47,8 +47,8 @@ _PARTED = re.compile(r"[-−–]?[\d.]+(?:\s?[;|]\s?| / )[-−–]?[\d.]+")
 _THIRD = re.compile(r",?\s(?:and|or)\s")
 _TIGHT = re.compile(r"[-−–]?\d{2,}(?:\.\d+)?/[-−–]?\d{2,}(?:\.\d+)?")
 """In "pen 3, 55/70" the number of the pen is no coordinate."""
-_X_FIRST = re.compile(r"(?<![a-z])x\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
-_Y_FIRST = re.compile(r"(?<![a-z])y\s*(?:[=:]|equals|is)?\s*$", re.IGNORECASE)
+_X_FIRST = re.compile(r"(?<![a-z])x\s*(?:[=:]|equals|is|of)?\s*$", re.IGNORECASE)
+_Y_FIRST = re.compile(r"(?<![a-z])y\s*(?:[=:]|equals|is|of)?\s*$", re.IGNORECASE)
 _CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")  # a time of day: "16:00"
 _COORDINATE_UNIT = re.compile(
     r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in "
@@ -62,7 +62,7 @@ _AT = re.compile(
     re.IGNORECASE,
 )
 _AXES = re.compile(
-    r"(?<![a-z])y\s?(?:[=:]|equals|is)?\s?(?:[-−–]|minus )?\d"
+    r"(?<![a-z])y\s?(?:[=:]|equals|is|of)?\s?(?:[-−–]|minus )?\d"
     r"|\d\s?(?:east|west|north|south)\b.*\d",
     re.IGNORECASE,
 )
@@ -129,7 +129,8 @@ def rows_of_sizes(text: str) -> list[list[Number]]:
 
 def written_positions(text: str) -> list[Position]:
     """Positions that are written as such: certain ones, and "40,25"; none overlaps another."""
-    measures = {number.end for number in read_numbers(text) if number.unit}
+    measures = {one.end for one in read_numbers(text) if one.unit or one.counts}
+    measures |= {one.end for one in read_numbers(text) if TIMES.match(text, one.end)}
     options = [
         one
         for one in read_positions(text)

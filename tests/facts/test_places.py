@@ -541,6 +541,7 @@ def test_dictated_metres_are_not_geographic() -> None:
         ("dock at five five please", (5, 5)),
         ("down to x one eighty y forty ten metres off", (180, 40)),
         ("visit one hundred comma fifty", (100, 50)),
+        ("the schooner at 85,40 - a minute and a half", (85, 40)),
         ("visit x = 42,5 ; y = -18,25", (42.5, -18.25)),
         ("head for ninety zero hold there two minutes", (90, 0)),
         ("to fifty comma one twenty four times", (50, 120)),
@@ -604,3 +605,31 @@ def test_dictated_coordinates_are_no_other_numbers() -> None:
 def test_a_time_is_no_coordinate() -> None:
     said = read("A 20,20 B 60,60, two minutes at each").positions
     assert {(one.x, one.y) for one in said} == {(20, 20), (60, 60)}
+
+
+NOTATIONS = [
+    *("85,40", "[85, 40]", "(85,40)", "85/40", "x 85 y 40", "x=85, y=40", "x of 85 and y of 40"),
+    *("85 east 40 north", "E85 N40", "85 m east and 40 m north", "+85,+40"),
+    *("eighty five forty", "eighty five comma forty", "x eighty five y forty"),
+]
+BEHIND = [
+    *(".", " for two minutes", " - a minute and a half", " - two minutes", ", 90 s", " twice"),
+    *(" a minute", " an hour", " one minute", " five minutes", " one lap", " two laps at 12 m"),
+    *(" half a knot", " at 2 knots", " 10 m off", ", radius 15", " 60x40", " heading 090"),
+    *(" then home", "; hold 60", " 3 times", ", 4 sectors", " -> 120,60", " – hold 2 min"),
+]
+
+
+@pytest.mark.parametrize("written", NOTATIONS)
+@pytest.mark.parametrize("before", ["go to ", "hold at ", "visit ", "@ ", "the buoy at "])
+def test_a_position_is_read_whatever_stands_behind_it(before: str, written: str) -> None:
+    texts = [before + written + behind for behind in BEHIND]
+    # "An hour" behind a measure can be a speed.
+    texts = [one for one in texts if "m north an" not in one and "m north a " not in one]
+    lost = [one for one in texts if (85, 40) not in {(at.x, at.y) for at in read_positions(one)}]
+    assert not lost
+
+
+@pytest.mark.parametrize("text", ["go to - 85, - 40", "pos - 85 / - 40 a minute", "to −85, −40"])
+def test_a_sign_with_a_blank_behind_it_is_a_sign(text: str) -> None:
+    assert [(at.x, at.y) for at in read_positions(text)] == [(-85, -40)]
