@@ -16,8 +16,8 @@ from planner_ft.vocabulary.definition import ONTOLOGY
 ENGLISH = Path(__file__).parent / "english.toml"
 GAP = r"\W{1,3}(?:[\w'’-]{1,30}\W{1,3}){0,3}?"  # the words that ... stands for: up to three.
 CLAUSE_END = re.compile(
-    r"(?<!\d)[.,](?=\s|$)|[.,](?=\s+[^\d\s−–-]|\s*$)|[;:!?\n]|\b(?:then|afterwards|after"
-    r" that|and|but)\b",
+    r"(?<!\d)[.,](?=\s|$)|[.,](?=\s+[^\d\s−–-]|\s*$)|[;:!?\n]|\s(?:--|[–—-])(?=\s[a-z])"
+    r"|\b(?:then|afterwards|after that|and|but)\b",
     re.IGNORECASE,
 )
 LAST = re.compile(r"\s*(?:[.!?;]|$)")

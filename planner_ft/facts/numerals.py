@@ -26,7 +26,7 @@ PASSED = 3  # words between a number and its unit: "quarter of a nautical mile"
 _TOKEN = re.compile(
     r"\d{1,3}(?:,\d{3})+(?=\s?(?:m|metres|meters|s|seconds)\b)"
     r"|(?<![\d.,])(?:0,\d{1,2}(?=\s?(?:k?m|nm)\b)"
-    r"|\d,\d(?=\s?(?:m/s|kn|kts?|knots|m|met(?:re|er)s?)\b))"
+    r"|\d{1,2},\d(?=\s?(?:m/s|kn|kts?|knots|m|met(?:re|er)s?|min(?:ute)?s?|h(?:ours)?)\b))"
     rf"|(?:\d+\s?)?[{''.join(lists.VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
     r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
@@ -296,7 +296,7 @@ class Row:
 
 def _figure(word: str) -> float | None:
     """The value of a token in figures: "1,200", "2/3", "1½", "1e3"."""
-    if word[:2] == "0," or len(word) == 3:
+    if word[:2] == "0," or len(word) < len("1,250"):
         word = word.replace(",", ".")
     if word[-1:] in lists.VULGAR:
         return float(word[:-1] or 0) + lists.VULGAR[word[-1]]

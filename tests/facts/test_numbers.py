@@ -152,6 +152,8 @@ VALUES = """
     at 4 m and a half hour of film | m | 4 4.5
     half a minute | s | 30
     7,5 m off and 2,5 knots | m | 7.5
+    12,5 m off for 2,5 min | m | 12.5
+    12,5 m off for 2,5 min | s | 150
     7,5 m off and 2,5 knots | m/s | 1.286111
     at point five knots | m/s | 0.257222
     to the point five knots | m/s | 2.572222

@@ -31,6 +31,16 @@ def data_ruled_out(case: Case) -> Iterator[Warning]:
             skills = ", ".join(sorted(data.skills & gathering))
             about = match[0].casefold()
             yield warning("data-ruled-out", about=about, words=match[0], skills=skills)
+    asked = asked_skills(case)
+    for clause in case.typed:
+        if clause.excluded is None or clause.corrected:
+            continue
+        off = max(clause.excluded, clause.start)
+        for data in (one for one in case.spoken.data if not one.ruled_out):
+            none = data.skills & gathering - asked
+            if none and data.said.search(case.command, off, clause.end):
+                words, listed = quoted(clause.text.strip(" ,;.")), ", ".join(sorted(none))
+                yield warning("data-ruled-out", about=words.casefold(), words=words, skills=listed)
 
 
 def data_not_planned(case: Case) -> Iterator[Warning]:

@@ -38,6 +38,7 @@ SIDE = re.compile(rf"\b(?:{'|'.join(SIDES)})(?: (?:of|is))?\s*[:=]?\s*$", re.IGN
 HOUR = re.compile(r"(?:[01]\d|2[0-3])[0-5]\d")
 BY = re.compile(r"\b(?:by|before|until|till) $", re.IGNORECASE)
 ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
+ID = 100000
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b(?!\.)\W*", re.IGNORECASE)
 """Stands between a value and its correction: "45 minutes, no, ten minutes"."""
@@ -188,14 +189,19 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
         behind = ends_with(replacing, before) or number in last_counted
         behind = behind or _shots(number, case) or number.start in behind_no
-        behind = behind or case.words["extent"].match(case.text[number.end :].lstrip()) is not None
+        extent = case.words["extent"].match(case.text[number.end :].lstrip()) is not None
+        behind = behind or extent
         if last and number.value >= 2:
             behind = behind or ends_with(case.words["measured"], before)
         behind = behind or (number.value > HOURS and AT.search(before) is not None)
         known = case.plan.says(number.value) or case.plan.says(number.value * 60)
-        if number.value < 0:
+        if number.value >= ID:  # digits of an id are the same, or another one's
+            known = f"{number.said:.0f}" in case.plan.texts
+        elif number.value < 0:
             known = any(near(number.value, other) for other in case.plan.anywhere)
-        elif SIDE.search(before):  # a coordinate that follows from others is no "width 50"
+        elif extent or SIDE.search(
+            before
+        ):  # a coordinate that follows from others is no "width 50"
             known = any(near(number.value, one) for one in case.plan.numbers)
         bare = bare or number.value < 0 or _is_distance(number, case)
         if number.start in apart or ((bare or instead or behind) and not known):

@@ -15,14 +15,32 @@ from planner_ft.vocabulary.definition import BUNDLED
 from tests.documents import USV, document, step, task
 
 
-def warned(command: str, *skills: str, prompt: str = "Go.", waits: bool = False) -> list[str]:
+def warned(
+    command: str,
+    *skills: str,
+    prompt: str = "Go.",
+    waits: bool = False,
+    kind: str = "data-not-planned",
+) -> list[str]:
     one: dict[str, Any] = step("GoToXY", {"x": 40, "y": 20})
     one["perception_skills"] = [{"name": name, "parameters": {}} for name in skills]
     steps = None if waits else [one]
     made = document(
         [task("Transit", {"target_position": [40, 20]}, steps, prompt)], command=command
     )
-    return [item["text"] for item in made["warnings"] if item["kind"] == "data-not-planned"]
+    return [item["text"] for item in made["warnings"] if item["kind"] == kind]
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("Go to [40, 20], but nothing is to be filmed.", 1),
+        ("Go to [40, 20] and record video. The crane is not to be filmed.", 0),
+        ("Go to [40, 20] and film.", 0),
+    ],
+)
+def test_what_a_clause_rules_out_and_steps_gather_is_told(command: str, told: int) -> None:
+    assert len(warned(command, "SetStreamRecording", kind="data-ruled-out")) == told
 
 
 def test_words_for_data_that_reach_no_skill_are_named_once_per_clause() -> None:

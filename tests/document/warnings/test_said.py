@@ -152,7 +152,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (FOUR_SIDES, [along("north"), along("east")], (), "value-lost"),
         ("Along the north side, no, the east side, 50 m, 5 m off.", [along("east")], (), None),
         (
-            "To 9,9, a pier is at one hundred fifty so do not hit that.",
+            "To 9,9, a pier is at one hundred fifty so steer round that.",
             [to(9, 9)],
             (),
             "value-lost",
@@ -173,6 +173,9 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
         ("Hold at 9,9 with the bow to the south-west.", [to(9, 9), hold(60)], (), "value-lost"),
         ("Head north to 9,9.", [to(9, 9)], (), None),
+        ("Map 50 by 50 at 9,9, 40 wide 40 long, 10 m lines.", [grid(50, 50)], (), "value-lost"),
+        ("Go to 9,9, a pillar is right at 30,9 so don't hit it.", [to(9, 9)], (), "limit-lost"),
+        ("To 9,9, log 211234500 -- typo, it's 211234560.", [to(9, 9)], (), "value-lost"),
         (PILES, [to(9, 0), to(120, -5)], (KEPT,), "repeat-lost"),
         ("Not a knot over 3 kn to 9,9.", [to(9, 9)], (), "limit-lost"),
         (
