@@ -31,7 +31,7 @@ _COMMA = re.compile(r"\s+comma\s+")
 _INSTEAD = "|".join(sorted(WORDS["instead"])).replace("_", r"\s+")
 _BESIDE = re.compile(rf"(?:\s*,)?\s+(?:(?:and|then|and then|to)\s+|(?:(?:{_INSTEAD}),?\s+)+)?")
 _BY = re.compile(r"\s+by\s")
-TIMES = re.compile(r"\s+(?:more|times|laps?|rounds?|circuits?|loops?|orbits?|circles?|turns?)\b")
+TIMES = re.compile(r"\s+(?:more|times|laps?|rounds|circuits?|loops|orbits|circles|turns)\b")
 _LAST_ONE = re.compile(r"\s+one$", re.IGNORECASE)
 _SINGLE = re.compile(
     r"\s+(?:full )?(?:minute|second|hour|met(?:re|er)|knot|lap|round|circle|loop)\b"
@@ -142,7 +142,7 @@ def _at_comma(text: str, run: Run) -> Iterator[list[Number]]:
     before, behind = run.parts
     firsts = list(_paths(text, run.numbers, *before, 1))
     seconds = list(_paths(text, run.numbers, *behind, 2))
-    more = [path for path in seconds if len(path) == 2]
+    more = [path for path in seconds if len(path) == 2 and _has_no_lone_digit(text, path)]
     alone = [path for path in seconds if len(path) == 1]
     times = TIMES.match(text, run.end) is not None
     # "Fifty comma one twenty / four times", "ten comma forty / five minutes".

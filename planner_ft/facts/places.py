@@ -49,6 +49,7 @@ _TIGHT = re.compile(r"[-−–]?\d{2,}(?:\.\d+)?/[-−–]?\d{2,}(?:\.\d+)?")
 """In "pen 3, 55/70" the number of the pen is no coordinate."""
 _X_FIRST = re.compile(r"(?<![a-z])x\s*(?:[=:]|equals|is|of)?\s*$", re.IGNORECASE)
 _Y_FIRST = re.compile(r"(?<![a-z])y\s*(?:[=:]|equals|is|of)?\s*$", re.IGNORECASE)
+_HALF = re.compile(r"(?:half|quarter)\b", re.IGNORECASE)
 _CLOCK = re.compile(r"(?:[01]?\d|2[0-3]):[0-5]\d(?!\d)")  # a time of day: "16:00"
 _COORDINATE_UNIT = re.compile(
     r"(?:,|\(|^|\ball|\bgiven|\bcorners|\bcoordinates|\bpositions|\bis|\bare) ?in "
@@ -187,6 +188,10 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
     for first, second in pairs((one for one in numbers if _is_metric(text, one)), MOST_BETWEEN):
         start, end = first.start, second.end
         between = _BETWEEN.fullmatch(text, first.stop, second.start)
+        # "120 metres 9 metres off", "25 m, half a turn".
+        measures = first.unit == second.unit == "m" and text[first.end : second.start].isspace()
+        if measures or _HALF.match(text, second.start):
+            continue
         if between and not _CLOCK.fullmatch(text, start, second.stop):
             plain = _AT.search(text[:start][-16:]) and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])

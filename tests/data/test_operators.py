@@ -1,34 +1,40 @@
-"""The commands of operators that the shipped adapter is trained on."""
+"""The commands of operators: what the shipped adapter is trained on, and more."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from planner_ft.data.leakage import near_duplicate
 from planner_ft.support.files import read_jsonl
 
-FILE = Path("data/operators/train.jsonl")
+FILES = sorted(Path("data/operators").glob("*.jsonl"))
 MEASURED = [
     Path("data/mission/validation.jsonl"),
     Path("data/mission/test.jsonl"),
     Path("data/mission/challenge.jsonl"),
     Path("eval/challenge/operators.jsonl"),
+    Path("eval/challenge/things.jsonl"),
     *sorted(Path("eval/challenge").glob("mission*.jsonl")),
     *sorted(Path("eval/field").glob("*.jsonl")),
 ]
 
 
+def _records() -> list[dict[str, Any]]:
+    return [record for file in FILES for record in read_jsonl(file)]
+
+
 @pytest.mark.parametrize("measured", MEASURED, ids=str)
 def test_no_command_of_operators_is_measured_with(measured: Path) -> None:
-    records = list(read_jsonl(FILE))
+    records = _records()
     commands = [record.get("prompt") or record["command"] for record in read_jsonl(measured)]
     assert not [found for one in commands if (found := near_duplicate(one, records))]
 
 
 def test_families_and_commands_are_apart_from_the_curated_ones() -> None:
-    records = list(read_jsonl(FILE))
+    records = _records()
     curated = [
         one
         for part in ("train", "validation", "test")
