@@ -32,14 +32,11 @@ def data_ruled_out(case: Case) -> Iterator[Warning]:
             about = match[0].casefold()
             yield warning("data-ruled-out", about=about, words=match[0], skills=skills)
     asked = asked_skills(case)
-    for clause in case.typed:
-        if clause.excluded is None or clause.corrected:
-            continue
-        off = max(clause.excluded, clause.start)
+    for off in case.words["not_to_be"].finditer(case.command):
         for data in (one for one in case.spoken.data if not one.ruled_out):
-            none = data.skills & gathering - asked
-            if none and data.said.search(case.command, off, clause.end):
-                words, listed = quoted(clause.text.strip(" ,;.")), ", ".join(sorted(none))
+            said = data.said.match(case.command[off.end() :].lstrip())
+            if said and (none := data.skills & gathering - asked):
+                words, listed = f"{off[0]} {said[0]}", ", ".join(sorted(none))
                 yield warning("data-ruled-out", about=words.casefold(), words=words, skills=listed)
 
 
