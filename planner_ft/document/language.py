@@ -193,7 +193,7 @@ def read_clauses(command: str, vocabulary: Vocabulary) -> tuple[Clause, ...]:
         if text.strip():
             exclusion = None if words["reminder"].search(text) else words["exclusion"].search(text)
             excluded = start + exclusion.start() if exclusion else None
-            behind = command[end : end + 48].lstrip(" ,.;:!?-")
+            behind = command[end : end + 48].lstrip(" ,.;:!?-–—")
             corrected = any(map(words["correction"].match, (behind, NO.sub("", behind))))
             last = words["afterthought"].match(behind)
             corrected &= not (last and LAST.match(behind, last.end()))
