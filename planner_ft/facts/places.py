@@ -25,11 +25,8 @@ _WRITTEN_PAIR = re.compile(
     re.IGNORECASE,
 )
 """Two numbers that are certainly coordinates, and no other values."""
-_COMMAS = re.compile(
-    r"(?<!\w)x\s?[=:]?\s?(-?\d+),(\d{1,2})(?![\d,])\W{0,4}(?:and )?y\s?[=:]?\s?(-?\d+),(\d{1,2})"
-    r"(?![\d,])",
-    re.IGNORECASE,
-)
+_DECIMAL = r"\s?[=:]?\s?(-?\d+),(\d{1,2})(?![\d,])"
+_COMMAS = re.compile(rf"(?<!\w)x{_DECIMAL}\W{{0,4}}(?:and )?y{_DECIMAL}", re.IGNORECASE)
 """Axes with decimal commas: "x = 42,5; y = 18,5"."""
 PAIR = re.compile(r"[-−–]?\d+(?:\.\d+)?(?:\s?[,/]\s?|;)[-−–]?\d+(?:\.\d+)?")
 BESIDE = re.compile(r"[\s,;/\])\[(]*(?:and|to|then)?[\s,;/\])\[(]*")
