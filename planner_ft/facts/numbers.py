@@ -186,7 +186,7 @@ def _is_of_name(row: Row, index: int, number: Number) -> bool:
     if not name or name["letters"].lower() in NUMERALS:
         return False
     letters = name["letters"]
-    if letters.lower() in ("x", "y") or (letters.lower() in AXES and not name["joint"]):
+    if letters.lower() in ("x", "y", "by") or (letters.lower() in AXES and not name["joint"]):
         return False
     return letters.isupper() or not (
         number.unit or (not name["joint"] and len(letters) > 1 and is_known(letters))

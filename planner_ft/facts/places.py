@@ -13,7 +13,7 @@ from planner_ft.facts.together import BY, REREAD, WRITTEN, Number, pairs
 from planner_ft.facts.words import COMPASS, SHORT, UNITS
 
 MOST_BETWEEN = 80  # characters between two coordinates
-_DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?|[ewns](?![a-z])"
+_DIRECTION = r"(?:east|west|north|south)(?:ings?|wards?|erly)?(?!-[a-z])|[ewns](?![a-z])"
 _METRES = r"(?:met(?:re|er)s?|m)\b"
 _SIGN = r"(?:minus |negative |[-−–])"
 _NUMBER = r"[-−–]?\d+(?:\.\d+)?"

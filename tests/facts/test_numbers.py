@@ -153,6 +153,7 @@ VALUES = """
     half a minute | s | 30
     7,5 m off and 2,5 knots | m | 7.5
     12,5 m off for 2,5 min | m | 12.5
+    a 60-by-40 grid | m | 40 60
     12,5 m off for 2,5 min | s | 150
     7,5 m off and 2,5 knots | m/s | 1.286111
     at point five knots | m/s | 0.257222
