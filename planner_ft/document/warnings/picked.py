@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from planner_ft.document.language import Ask, Clause, Data
+from planner_ft.document.ontology import named_places
 from planner_ft.document.track import Point, place_of
 from planner_ft.document.warnings.case import (
     Case,
@@ -20,6 +21,7 @@ from planner_ft.document.warnings.case import (
 from planner_ft.document.warnings.data import gathered_by
 from planner_ft.facts import Position
 from planner_ft.facts.places import rows_of
+from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry
 
 ORDER = ("first", "second", "third", "fourth", "fifth", "sixth")
@@ -29,6 +31,7 @@ ORDINAL = re.compile(
     re.IGNORECASE,
 )
 """An ordinal that stands for a place, and the noun behind it."""
+LABEL = re.compile(r"(?<!\w)([A-Z]{1,2}\d{0,2})\s*(?:(?:is )?at|=|:)?\s*[\[(]?$")  # "A 10,20"
 QUOTED = re.compile(r"\"[^\"]{8,}\"|“[^”]{8,}”")
 COUNTS = {None: 1, "two": 2, "three": 3}
 ONLY = re.compile(r"\b(?:only|just|alone|nowhere else)\b", re.IGNORECASE)
@@ -154,6 +157,31 @@ def _done(case: Case) -> Done:
 
 def _is_at(at: Point, places: Places) -> bool:
     return any(same_place(place, at) for place in places)
+
+
+def named_order(case: Case) -> Iterator[Warning]:
+    """Things whose places are told first, and which the command then names in another order than
+    the plan goes to them, without a word that turns an order round.
+    """
+    labels = ((LABEL.search(case.text[: place.start]), place) for place in case.positions)
+    things = [(match[1], place) for match, place in labels if match]
+    things += named_places(case.text, case.vocabulary)
+    last = max((place.end for _name, place in things), default=0)
+    if case.words["orders"].search(case.text, last):
+        return
+    said = dict[tuple[float, ...], tuple[int, str]]()
+    for name, place in things:
+        bare = ARTICLE.sub("", name)
+        again = re.compile(rf"(?<!\w){re.escape(bare)}(?!\w)", re.IGNORECASE if bare[1:] else 0)
+        found = [at.start() for at in again.finditer(case.text, last) if case.wants(at.start())]
+        if found:
+            said[spot((place.x, place.y))] = found[0], bare
+    at = (place_of(task, case.vocabulary) for task in case.tasks)
+    gone = [one for one in dict.fromkeys(spot(one) for one in at if one) if one in said]
+    named = sorted(gone, key=lambda one: said[one])
+    if gone != named and len({said[one][0] for one in named}) == len(named):
+        words = ", ".join(said[one][1] for one in named)
+        yield warning("contradiction", "named", about=words.casefold(), words=words)
 
 
 def at_corners(case: Case) -> Iterator[Warning]:

@@ -21,7 +21,6 @@ from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
 ALL = re.compile(r"\s+all (?:of )?(?:it|that|this)\b", re.IGNORECASE)
-LABEL = re.compile(r"(?<!\w)([A-Z]{1,2}\d{0,2})\s*(?:(?:is )?at|=|:)?\s*[\[(]?$")  # "A 10,20"
 LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
@@ -272,7 +271,7 @@ def left_out(case: Case) -> Iterator[Warning]:
 
 
 def _left_out(case: Case) -> Iterator[tuple[Clause, str, Position]]:
-    labels = ((LABEL.search(case.text[: place.start]), place) for place in case.positions)
+    labels = ((picked.LABEL.search(case.text[: place.start]), place) for place in case.positions)
     things = [(match[1], place) for match, place in labels if match]
     things += named_places(case.text, case.vocabulary)
     for clause in (one for one in case.clauses if one.excluded is not None):
