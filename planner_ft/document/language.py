@@ -105,8 +105,10 @@ def _leads_to_a_value(no: re.Match[str], correction: re.Pattern[str]) -> bool:
     if more := correction.match(rest):
         rest = rest[more.end() :].lstrip(" ,")
     valued = any(number.start == 0 for number in read_numbers(rest))
-    plain = no[0].casefold() == "no"
-    return plain and valued and ends_with(correction, no.string[: no.start()])
+    plain, before = no[0].casefold() == "no", no.string[: no.start()].rstrip(" ,")
+    # "Forty fifty, no, forty ninety".
+    between = any(number.end == len(before) for number in read_numbers(before))
+    return plain and valued and (between or ends_with(correction, before))
 
 
 def ends_with(words: re.Pattern[str], text: str) -> bool:

@@ -140,13 +140,13 @@ def _named_places(text: str, vocabulary: Vocabulary, thing: str) -> Iterator[tup
     areas = set[int]()  # where the corners of areas begin: "the box (0, 0), (40, 0), ..."
     for row in rows_of(text, written):
         words = _words_before(text, row[0].start, things)
-        several |= {place.start: words for place in row[1:] if words.endswith("s")}
-        areas |= {row[0].start} if _is_area(row) and not words.endswith("s") else set()
+        several |= {place.start: words for place in row[1:] if words.casefold().endswith("s")}
+        areas |= {row[0].start} if _is_area(row) and not words.casefold().endswith("s") else set()
     for match in spoken.words["one_of_them"].finditer(text):
         sentence = text.rfind(". ", 0, match.start()) + 1
         before = [one for one in bare if sentence <= one[0] and one[1] <= match.start()]
         words = text[slice(*before[-1])] if before else ""
-        several |= {match.end() + 1: words} if words.endswith("s") else {}
+        several |= {match.end() + 1: words} if words.casefold().endswith("s") else {}
     for place in read_positions(text):
         words = _words_beside(text, place, things) if place.certain else ""
         if not place.certain and place in written:

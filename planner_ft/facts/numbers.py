@@ -238,7 +238,7 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
     unit, behind = row.unit(after)
     # "At 85,40 a minute" is no 40 minutes.
     article = words[0] in ("a", "an") and row.written(after).islower()
-    whole = value == int(value) or "." in row.written(after - 1)
+    whole = float(value).is_integer() or "." in row.written(after - 1)
     apart = article and whole and _is_second(row, first)
     if words[0] in ("m", "min") and words[1].isdigit() and words[2] in ("s", "sec"):  # 3m30s
         yield number(60 * value + float(words[1]), "s", value, after + 3)
@@ -250,7 +250,7 @@ def _measured(row: Row, first: int, after: int, value: float) -> Iterator[tuple[
             yield number(value * RARE_UNITS[word][1], RARE_UNITS[word][0], value, after)
     else:
         rate, last = _rate(row, behind) if unit[0] == "m" else (0.0, behind)
-        fraction, more = row.half(behind) if value == int(value) else (0.0, behind)
+        fraction, more = row.half(behind) if float(value).is_integer() else (0.0, behind)
         if rate:
             yield number(value * unit[1] / rate, "m/s", value, last)
         else:

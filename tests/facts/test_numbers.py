@@ -450,3 +450,7 @@ def test_numbers_beside_each_other_are_within_some_characters() -> None:
     assert len(list(pairs(numbers, 9))) == 6
     found = neighbours(read_numbers("2 min and 30 s, then 5 h"), "s")
     assert [(one.value, one.start, one.end) for one in found] == [(150, 0, 14)]
+
+
+def test_figures_without_an_end_are_one_number() -> None:
+    assert len(read_numbers("at " + "9" * 400 + " a minute")) == 1

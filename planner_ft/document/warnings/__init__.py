@@ -62,7 +62,7 @@ def answers(case: Case) -> Iterator[Warning]:
 
 CHECKS: tuple[Check, ...] = (
     answers,
-    *(limits.broken, limits.unplaced, limits.close_structures, places.beside),
+    *(limits.broken, limits.unplaced, limits.close_structures, limits.beside),
     *(route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     said.harm,
@@ -91,7 +91,7 @@ CHECKS: tuple[Check, ...] = (
         places.unvisited,
         places.positions,
         places.passed,
-        said.limits,
+        limits.lost_limits,
         repeats.repeats,
         repeats.each,
     ),

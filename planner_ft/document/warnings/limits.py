@@ -1,10 +1,15 @@
-"""What the track of a plan breaks: limits, and the stand-offs of structures."""
+"""Limits: those of the command that a plan has not, those that its track breaks, and the stand-offs
+of structures.
+"""
 
+import functools
 import itertools
 import math
+import re
 from collections.abc import Iterator
 from typing import Any
 
+from planner_ft.document.language import Clause, ends_with
 from planner_ft.document.structures import (
     MOVING,
     Structure,
@@ -13,16 +18,32 @@ from planner_ft.document.structures import (
     structures,
     way_off,
 )
-from planner_ft.document.track import Leg, Point, shown, stated
-from planner_ft.document.warnings.case import Case, Warning, skills_of, warning
+from planner_ft.document.track import Leg, Point, circle_of, shown, stated
+from planner_ft.document.vehicle import STAND_OFF
+from planner_ft.document.warnings.case import (
+    LONGER,
+    Case,
+    Warning,
+    quoted,
+    same_place,
+    skills_of,
+    warning,
+)
 from planner_ft.document.warnings.data import asked_skills
+from planner_ft.facts import is_place, near
+from planner_ft.facts.numbers import read_times
 from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.locations import ARTICLE
+from planner_ft.planning.shapes import face_of
 from planner_ft.vocabulary import Entry
 from planner_ft.vocabulary.limits import load_limits
 
 TOLERANCE = 0.5  # metres by which a leg may miss a limit
+LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 LONGEST_ARTICLE = 3  # letters of words that name nothing
+BEHIND = 3  # characters between "back within" and its number: "a quarter of an hour"
+AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
+"""Stands before a number that is said as one coordinate: "x = 120"."""
 Found = tuple[str, str] | None  # (task, how) of the first thing that breaks a limit
 
 
@@ -159,3 +180,69 @@ def close_structures(case: Case) -> Iterator[Warning]:
             values: dict[str, Any] = {"metres": metres, "name": where}
             values["standoff"] = structure.standoff
             yield warning("structure-close", task=case.by_id[name], about=at, **values)
+
+
+def lost_limits(case: Case) -> Iterator[Warning]:
+    """Clauses that limit with a number or a position that no limit and no task has."""
+    for clause in filter(functools.partial(is_lost, case=case), case.clauses):
+        # A time of day goes on behind its colon.
+        clock = re.compile(r":\d\d").match(case.text, clause.end)
+        words = case.text[clause.start : clock.end() if clock else clause.end].strip(" ,;")
+        yield warning("limit-lost", "limit", about=words.casefold(), words=quoted(words))
+
+
+def is_lost(clause: Clause, case: Case) -> bool:
+    """Whether a clause limits, and no limit and no task of the plan has that."""
+    in_row = any(clause.start <= row[0].start < clause.end for row in case.rows)
+    limiting = not in_row and not clause.corrected and case.words["limit"].search(clause.text)
+    return bool(limiting) and not _is_kept(clause, case)
+
+
+def _is_kept(clause: Clause, case: Case) -> bool:
+    plan, text = case.plan, case.text
+    inside = [one for one in case.positions if clause.start <= one.start < clause.end]
+    numbers = [one for one in case.numbers if clause.start <= one.start < clause.end]
+    apart = [n for n in numbers if not any(one.start <= n.start < one.end for one in inside)]
+    than = case.words["measured"]
+    said = [
+        one
+        for one in apart
+        if one.unit in ("m", "s", "m/s")
+        or AXIS.search(text[: one.start])
+        or (one.unit is None and ends_with(than, text[clause.start : one.start]))
+    ]
+    by_time = case.words["by_time"].search(clause.text)
+    behind = clause.start + by_time.end() if by_time else len(text)
+    if any(0 <= one.start - behind <= BEHIND for one in (*numbers, *read_times(text))):
+        return plan.timed
+    away = case.words["away"].search(clause.text)
+    if not said and away:
+        limited = [value for value in plan.limits if is_place(value)]
+        if not inside:
+            # "Keep clear of it" names nothing: some text must keep the vehicle away.
+            thing = case.words["boundary"].sub("", clause.text[away.end() :])
+            told = plan.polygons or case.words["away"].search(plan.texts)
+            return plan.speaks_of(thing) if LONGER.search(thing) else bool(told)
+        return all(any(same_place(place, at) for at in limited) for place in inside)
+    strict = case.words["strict"].search(clause.text)
+    if strict and not (numbers or inside or away):
+        return plan.speaks_of(case.words["boundary"].sub("", clause.text[strict.end() :]))
+    whole = case.words["whole_limit"].search(clause.text)
+    last = clause.start + whole.start() if whole else len(text)
+    # In "circle it at 10 m, never nearer than 40 m to the reef" one is the task's.
+    last = last if any(one.start >= last for one in said) else 0 if whole else last
+    known = [*plan.limited, *plan.numbers]
+    return all(
+        any(near(one.value, other) for other in (known if one.start < last else plan.limited))
+        for one in said
+    )
+
+
+def beside(case: Case) -> Iterator[Warning]:
+    """Tasks that go round a structure, or along it, nearer than any vehicle of the kind may."""
+    least = case.vehicle.get("stand_off", STAND_OFF) * LEAST
+    for task in case.tasks:
+        circle, face = circle_of(task, case.vocabulary), face_of(task, case.vocabulary)
+        metres = circle[1] if circle else face.distance if face else least
+        if 0 < metres < least:
+            yield warning("structure-close", "beside", task, metres=metres)

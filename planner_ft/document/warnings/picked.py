@@ -64,9 +64,13 @@ def elsewhere(case: Case) -> Iterator[Warning]:
     out, and a place that is left out altogether.
     """
     done = _done(case)
+    every = [one for choices in _choices(case) for one in choices if not one.ruled_out]
     for choices in _choices(case):
         # Where an ordinal can be read in two ways, the plan may have either.
         wrong = min((list(_wrong(case, one, done)) for one in choices), key=len, default=[])
+        others = [one for one in every if one.clause is not choices[0].clause]
+        fine = [task for at, task in done if any(_is_at(at, one.picked) for one in others)]
+        wrong = [task for task in wrong if task not in fine]
         for task in wrong[:1]:
             words = quoted(choices[0].clause.text.strip(" ,;."))
             yield warning("contradiction", "picked", task, about=words.casefold(), words=words)
@@ -163,25 +167,44 @@ def named_order(case: Case) -> Iterator[Warning]:
     """Things whose places are told first, and which the command then names in another order than
     the plan goes to them, without a word that turns an order round.
     """
-    labels = ((LABEL.search(case.text[: place.start]), place) for place in case.positions)
-    things = [(match[1], place) for match, place in labels if match]
-    things += named_places(case.text, case.vocabulary)
-    last = max((place.end for _name, place in things), default=0)
-    if case.words["orders"].search(case.text, last):
+    said = _named_again(case)
+    if not said or case.words["orders"].search(case.text, min(said.values())[0]):
         return
-    said = dict[tuple[float, ...], tuple[int, str]]()
-    for name, place in things:
-        bare = ARTICLE.sub("", name)
-        again = re.compile(rf"(?<!\w){re.escape(bare)}(?!\w)", re.IGNORECASE if bare[1:] else 0)
-        found = [at.start() for at in again.finditer(case.text, last) if case.wants(at.start())]
-        if found:
-            said[spot((place.x, place.y))] = found[0], bare
     at = (place_of(task, case.vocabulary) for task in case.tasks)
     gone = [one for one in dict.fromkeys(spot(one) for one in at if one) if one in said]
     named = sorted(gone, key=lambda one: said[one])
     if gone != named and len({said[one][0] for one in named}) == len(named):
         words = ", ".join(said[one][1] for one in named)
         yield warning("contradiction", "named", about=words.casefold(), words=words)
+
+
+def is_listed(place: Position, case: Case) -> bool:
+    """Whether a position is one of a list of things, of which the command then names others."""
+    said, clause = _named_again(case), case.clause_at(place.start)
+    asking = [case.words["verb"], case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
+    asked = clause is None or any(words.search(clause.text) for words in asking)
+    named = any(same_place(one, (place.x, place.y)) for _name, one in _things(case))
+    return bool(said) and named and not asked and spot((place.x, place.y)) not in said
+
+
+def _things(case: Case) -> list[tuple[str, Position]]:
+    """The things of the command, and its letters, with their places."""
+    labels = ((LABEL.search(case.text[: place.start]), place) for place in case.positions)
+    things = [(match[1], place) for match, place in labels if match]
+    return [*things, *named_places(case.text, case.vocabulary)]
+
+
+def _named_again(case: Case) -> dict[tuple[float, ...], tuple[int, str]]:
+    """Where the command names things behind all of their places, with the name, by the place."""
+    things, said = _things(case), dict[tuple[float, ...], tuple[int, str]]()
+    last = max((place.end for _name, place in things), default=0)
+    for name, place in things:
+        bare = ARTICLE.sub("", name)
+        again = re.compile(rf"(?<!\w){re.escape(bare)}(?!\w)", re.IGNORECASE if bare[1:] else 0)
+        found = [at.start() for at in again.finditer(case.text, last) if case.wants(at.start())]
+        if found:
+            said[spot((place.x, place.y))] = found[0], bare
+    return said
 
 
 def at_corners(case: Case) -> Iterator[Warning]:

@@ -8,20 +8,20 @@ from typing import Any
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import OVER, ROUND, bars, structures, way_off
-from planner_ft.document.track import Point, circle_of, place_of, shown
+from planner_ft.document.track import Point, place_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings import picked
 from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, spot, warning
+from planner_ft.document.warnings.said import CORRECTED, NO
 from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.geographic import lone_coordinates, read_geographic
 from planner_ft.facts.places import read_positions, rows_of
 from planner_ft.planning.locations import ARTICLE
-from planner_ft.planning.shapes import PASS, face_of, goal_of
+from planner_ft.planning.shapes import PASS, goal_of
 from planner_ft.vocabulary import Entry, Vocabulary
 
 IT = re.compile(r"\b(?:it|its|there|them|their|that|this|here)\b", re.IGNORECASE)
 ALL = re.compile(r"\s+all (?:of )?(?:it|that|this)\b", re.IGNORECASE)
-LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 SENTENCES = re.compile(r"[^.!?]*(?:[.!?]+[^.!?]*)?")
 """The rest of a sentence, and the next."""
 
@@ -37,12 +37,24 @@ def positions(case: Case) -> Iterator[Warning]:
     known = structures(case.document, case.vocabulary) if missing else ()
     for place in missing:
         kept_off = any(same_place(place, one.position) for one in known)
-        if not (kept_off and _is_told_of(place, case)):
+        told = (kept_off and _is_told_of(place, case)) or picked.is_listed(place, case)
+        if not told and not _is_corrected(place, case):
             yield case.lost(place.start, place.end)
     for start, end in lone_coordinates(case.text):
         words = case.text[start:end].strip()
         if words.casefold() not in case.plan.texts:
             yield lost(words)
+
+
+def _is_corrected(place: Position, case: Case) -> bool:
+    """Whether the plan has the position that is said in the place of another one, in one breath:
+    "forty fifty, no, forty ninety".
+    """
+    following = next((one for one in case.positions if one.start >= place.end), None)
+    between = case.text[place.end : following.start] if following else ""
+    corrected = NO.match(between) or case.words["correction"].search(between)
+    close = len(between) <= CORRECTED and corrected is not None
+    return close and following is not None and case.plan.has(following)
 
 
 def taken_back(case: Case) -> Iterator[Warning]:
@@ -81,16 +93,6 @@ def passed(case: Case) -> Iterator[Warning]:
             yield warning("structure-close", "passed", task, **known)
 
 
-def beside(case: Case) -> Iterator[Warning]:
-    """Tasks that go round a structure, or along it, nearer than any vehicle of the kind may."""
-    least = case.vehicle.get("stand_off", STAND_OFF) * LEAST
-    for task in case.tasks:
-        circle, face = circle_of(task, case.vocabulary), face_of(task, case.vocabulary)
-        metres = circle[1] if circle else face.distance if face else least
-        if 0 < metres < least:
-            yield warning("structure-close", "beside", task, metres=metres)
-
-
 def passed_elsewhere(case: Case) -> Iterator[Warning]:
     """Passes that lie elsewhere than the place that the plan has gone to before them, where their
     prompt says no place: nothing else told the Task Agent where it is.
@@ -119,7 +121,8 @@ def _is_told_of(place: Position, case: Case) -> bool:
         return True
     row = next(row for row in rows_of(case.text, case.positions) if place in row)
     inside = [one for one in case.clauses if one.end > row[0].start][:1]
-    inside += [one for one in case.clauses if one.start > row[-1].start][:1]
+    if not case.words["tells"].search(inside[0].text):
+        inside += [one for one in case.clauses if one.start > row[-1].start][:1]
     told = " ".join(one.text for one in inside)
     behind = SENTENCES.match(case.text, row[-1].end)
     meant = IT.search(behind[0]) and not case.words["away"].search(behind[0]) if behind else None
@@ -298,7 +301,8 @@ def misnamed(case: Case) -> Iterator[Warning]:
         for words, place in named_places(task["task_prompt"], case.vocabulary):
             at = place.x, place.y
             there = {name for name, other in said if same_place(other, at)}
-            if there and words.casefold() in names - there:
+            same = any(_is_named(words, name) for name in there)
+            if there and words.casefold() in names - there and not same:
                 values = {"words": words, "place": shown(at), "other": min(there)}
                 yield warning("contradiction", "misnamed", task, **values)
     for limit in case.limits:

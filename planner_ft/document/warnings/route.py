@@ -77,6 +77,8 @@ def missing_return(case: Case) -> Iterator[Warning]:
 def _asks_for_home(clause: Clause, case: Case) -> bool:
     """Whether a clause speaks of coming home, and not of a way that begins there."""
     away = [clause.start + at.end() for at in case.words["from_home"].finditer(clause.text)]
+    ways = case.words["elsewhere"].finditer(clause.text)
+    away += [clause.start + at.start() + len("return") for at in ways]
     # "To 180,0 and back please", but not "from 0,40 to 180,0 and back".
     if back := BACK.fullmatch(case.command, max(0, clause.start - CLOSE), clause.end):
         return not clause.corrected and len(read_positions(back["way"])) == 1

@@ -10,17 +10,10 @@ import itertools
 import re
 from collections.abc import Iterator
 
-from planner_ft.document.language import Clause, ends_with
-from planner_ft.document.warnings.case import (
-    LONGER,
-    Case,
-    Warning,
-    lost,
-    quoted,
-    same_place,
-    warning,
-)
-from planner_ft.facts import Number, is_place, near
+from planner_ft.document.language import ends_with
+from planner_ft.document.warnings.case import LONGER, Case, Warning, lost, quoted, warning
+from planner_ft.document.warnings.limits import AXIS, is_lost
+from planner_ft.facts import Number, near
 from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.numbers import read_times
 from planner_ft.facts.places import is_course, read_bearings, read_positions, rows_of_sizes
@@ -32,12 +25,9 @@ MOMENT = re.compile(r"(?:an? (?:\w+ )?)?(?:second|minute|moment|day)", re.IGNORE
 """Words that are no time to be kept: "a second", "a good day"."""
 SIZES = re.compile(r"\d\s?(?:m\b|met(?:re|er)s?)?\s?(?:wide|long)?\s?[x×*]\s?$")
 """Stands before the later sizes of "20 x 20 x 5" and "40 m wide x 20 m long"."""
-AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
-"""Stands before a number that is said as one coordinate: "x = 120"."""
 SIDE = re.compile(rf"\b(?:{'|'.join(SIDES)})(?: (?:of|is))?\s*[:=]?\s*$", re.IGNORECASE)
 HOUR = re.compile(r"(?:[01]\d|2[0-3])[0-5]\d")
 BY = re.compile(r"\b(?:by|before|until|till) $", re.IGNORECASE)
-ARTICLE = 3  # characters between "back within" and its number: "a quarter of an hour"
 ID = 100000
 LONGEST_NAME = 24  # characters in which the name of a parameter stands before its value
 NO = re.compile(r"\W*\bno\b(?!\.)\W*", re.IGNORECASE)
@@ -64,7 +54,7 @@ def measures(case: Case) -> Iterator[Warning]:
         return
     text, instead = case.text, _instead(case)
     measured = [one for one in case.numbers if _is_measure(text, one)]
-    limiting = [clause for clause in case.clauses if _is_lost(clause, case)]
+    limiting = [clause for clause in case.clauses if is_lost(clause, case)]
     joined = functools.cache(functools.partial(neighbours, case.numbers))
     apart = {size.start for row in rows_of_sizes(text) for size in case.plan.missing_sizes(row)}
     for number, following in itertools.zip_longest(case.numbers, case.numbers[1:]):
@@ -299,53 +289,3 @@ def devices(case: Case) -> Iterator[Warning]:
             new = [one for one in own if not any(words.fullmatch(one) for words in known)]
             if new and new[0].casefold() not in case.plan.words:
                 yield lost(f"{new[0]} {case.text[start:end]}")
-
-
-def limits(case: Case) -> Iterator[Warning]:
-    """Clauses that limit with a number or a position that no limit and no task has."""
-    for clause in filter(functools.partial(_is_lost, case=case), case.clauses):
-        # A time of day goes on behind its colon.
-        clock = re.compile(r":\d\d").match(case.text, clause.end)
-        words = case.text[clause.start : clock.end() if clock else clause.end].strip(" ,;")
-        yield warning("limit-lost", "limit", about=words.casefold(), words=quoted(words))
-
-
-def _is_lost(clause: Clause, case: Case) -> bool:
-    """Whether a clause limits, and no limit and no task of the plan has that."""
-    in_row = any(clause.start <= row[0].start < clause.end for row in case.rows)
-    limiting = not in_row and not clause.corrected and case.words["limit"].search(clause.text)
-    return bool(limiting) and not _is_kept(clause, case)
-
-
-def _is_kept(clause: Clause, case: Case) -> bool:
-    plan, text = case.plan, case.text
-    inside = [one for one in case.positions if clause.start <= one.start < clause.end]
-    numbers = [one for one in case.numbers if clause.start <= one.start < clause.end]
-    apart = [n for n in numbers if not any(one.start <= n.start < one.end for one in inside)]
-    than = case.words["measured"]
-    said = [
-        one
-        for one in apart
-        if one.unit in ("m", "s", "m/s")
-        or AXIS.search(text[: one.start])
-        or (one.unit is None and ends_with(than, text[clause.start : one.start]))
-    ]
-    by_time = case.words["by_time"].search(clause.text)
-    behind = clause.start + by_time.end() if by_time else len(text)
-    if any(0 <= one.start - behind <= ARTICLE for one in (*numbers, *read_times(text))):
-        return plan.timed
-    away = case.words["away"].search(clause.text)
-    if not said and away:
-        limited = [value for value in plan.limits if is_place(value)]
-        if not inside:
-            # "Keep clear of it" names nothing: some text must keep the vehicle away.
-            thing = case.words["boundary"].sub("", clause.text[away.end() :])
-            told = plan.polygons or case.words["away"].search(plan.texts)
-            return plan.speaks_of(thing) if LONGER.search(thing) else bool(told)
-        return all(any(same_place(place, at) for at in limited) for place in inside)
-    strict = case.words["strict"].search(clause.text)
-    if strict and not (numbers or inside or away):
-        return plan.speaks_of(case.words["boundary"].sub("", clause.text[strict.end() :]))
-    whole = case.words["whole_limit"].search(clause.text)
-    known = plan.limited if whole else [*plan.limited, *plan.numbers]
-    return all(any(near(one.value, other) for other in known) for one in said)

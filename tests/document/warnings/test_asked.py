@@ -107,6 +107,7 @@ def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
         ("Go to [30, 40], the stop nearest home.", [THERE], []),
         ("Go to [30, 40], then home.", [THERE], ["missing-return"]),
         ("To [30, 40] and back please.", [THERE], ["missing-return"]),
+        ("Go to [30, 40] and return to the first spot.", [THERE], []),
         ("Do not go 150 m from home. Go to [30, 40], home.", [THERE, BACK], []),
         (
             "Look all round. No panorama after all.",

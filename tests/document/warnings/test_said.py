@@ -62,6 +62,9 @@ FOUR_SIDES = "Along the north side, then the east side, then the west side, 50 m
 BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
 PILES = "To 9,0. Two piles on the way, 60,5 and 120,-5, give both of them 25 m."
 KEPT = "The vehicle stays at least 25 m from [60, 5]."
+SITES = "Out there: buoy [60, 20], pontoon [20, 60], barge [90, 90]. Hold at the buoy, then the pontoon."
+REEF = "Circle it at twenty metres at sixty sixty, never nearer than forty metres to the reef, via 9,9."
+OFF_REEF = "The vehicle stays at least 40 m from the reef."
 LOOP = "Do the loop [4, 0], [4, 4], [0, 4] twice."
 BOX = "The area is [0, 0], [200, 0], [200, 200], [0, 200]"
 BACKS = [to(1, 1), to(9, -34)]
@@ -173,6 +176,13 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
         ("Hold at 9,9 with the bow to the south-west.", [to(9, 9), hold(60)], (), "value-lost"),
         ("Head north to 9,9.", [to(9, 9)], (), None),
+        (SITES, [to(60, 20), hold(60), to(20, 60)], (), None),
+        (SITES, [to(20, 60), to(60, 20), hold(60)], (), "contradiction"),
+        ("go to forty fifty no forty ninety", [to(40, 90)], (), None),
+        ("go to forty fifty no forty ninety", [to(40, 50)], (), "value-lost"),
+        (REEF, [to(9, 9), orbit(360)], (OFF_REEF,), None),
+        (REEF, [to(9, 9), orbit(360)], (), "limit-lost"),
+        ("When that's done come home, first to 9,9.", [to(9, 9), to(0, 0)], (), None),
         ("Map 50 by 50 at 9,9, 40 wide 40 long, 10 m lines.", [grid(50, 50)], (), "value-lost"),
         ("Go to 9,9, a pillar is right at 30,9 so don't hit it.", [to(9, 9)], (), "limit-lost"),
         ("To 9,9, log 211234500 -- typo, it's 211234560.", [to(9, 9)], (), "value-lost"),
