@@ -1,6 +1,6 @@
 """Whether the vehicle can carry the plan out: order, endurance, return, boundaries, area, reach;
-and whether steps perform their task: a grid covers its area, a pass has its length, a panorama looks in
-all its directions.
+and whether steps perform their task: a grid covers its area, a pass has its length, a panorama
+looks in all its directions.
 """
 
 import functools
