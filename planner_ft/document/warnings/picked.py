@@ -33,6 +33,7 @@ ORDINAL = re.compile(
 """An ordinal that stands for a place, and the noun behind it."""
 LABEL = re.compile(r"(?<!\w)([A-Z]{1,2}\d{0,2})\s*(?:(?:is )?at|=|:)?\s*[\[(]?$")  # "A 10,20"
 QUOTED = re.compile(r"\"[^\"]{8,}\"|“[^”]{8,}”")
+CLOSE = 32  # characters between "begin at" and its position
 COUNTS = {None: 1, "two": 2, "three": 3}
 ONLY = re.compile(r"\b(?:only|just|alone|nowhere else)\b", re.IGNORECASE)
 Places = Sequence[Position]
@@ -176,6 +177,24 @@ def named_order(case: Case) -> Iterator[Warning]:
     if gone != named and len({said[one][0] for one in named}) == len(named):
         words = ", ".join(said[one][1] for one in named)
         yield warning("contradiction", "named", about=words.casefold(), words=words)
+
+
+def ends_otherwise(case: Case) -> Iterator[Warning]:
+    """A place at which the command begins or ends, and a plan that goes to another one first, or
+    last but for the way home.
+    """
+    at = (place_of(task, case.vocabulary) for task in case.tasks)
+    gone = [one for one in dict.fromkeys(filter(None, at)) if one != case.vocabulary.home]
+    for name, end in (("starts_at", 0), ("ends_at", -1)):
+        for said in case.words[name].finditer(case.text) if len(gone) > 1 else ():
+            place = next((one for one in case.positions if one.start >= said.end()), None)
+            between = case.text[said.end() : place.start] if place else ""
+            close = len(between) <= CLOSE and not any(mark in between for mark in ".;\n")
+            if place is None or not close or not case.wants(said.start()):
+                continue
+            if any(same_place(place, one) for one in gone) and not same_place(place, gone[end]):
+                words = quoted(case.text[said.start() : place.end])
+                yield warning("contradiction", "ends", about=words.casefold(), words=words)
 
 
 def is_listed(place: Position, case: Case) -> bool:
