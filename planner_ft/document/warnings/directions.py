@@ -7,14 +7,15 @@ from collections.abc import Iterator
 from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, bearing, place_of
-from planner_ft.document.warnings.case import Case, Warning, lost
+from planner_ft.document.warnings.case import Case, Warning, lost, skills_of
 from planner_ft.document.warnings.said import CORRECTED
-from planner_ft.facts import Number, near
+from planner_ft.facts import Number, is_number, near
 from planner_ft.facts.places import read_bearings
 from planner_ft.vocabulary import Entry
 
 ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
 TURNED = 28  # characters before a direction in which the command says what is turned there
+DIGIT = re.compile(r"\d")
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 
 
@@ -32,7 +33,11 @@ def sides(case: Case) -> Iterator[Warning]:
     along = any(case.vocabulary.task[one["title"]].pattern == "pass" for one in case.tasks)
     for one in found:
         before = case.text[max(0, one.start - TURNED) : one.start]
-        turned = case.words["faced"].search(before) and not ON_SIDE.match(case.text, one.end)
+        faced = case.words["faced"].search(before)
+        # "Bow to 270, then 200 m due north" is another direction.
+        turned = faced and not (
+            DIGIT.search(before, faced.end()) or ON_SIDE.match(case.text, one.end)
+        )
         if turned and case.wants(one.start) and not _has(one, case):
             yield case.lost(one.start, one.end)
     last = [one for one in found if along and ON_SIDE.match(case.text, one.end)]
@@ -44,7 +49,18 @@ def sides(case: Case) -> Iterator[Warning]:
 def _has(direction: Number, case: Case) -> bool:
     """Whether a direction is a value of the plan, or a word of it."""
     words = case.text[direction.start : direction.end].casefold()
-    return words in case.plan.words or case.plan.says(direction.value)
+    return words in case.plan.words or any(near(direction.value, one) for one in _angles(case))
+
+
+def _angles(case: Case) -> Iterator[float]:
+    """The angles among the values of tasks and skills, in degrees: 90 s are no heading east."""
+    known = case.vocabulary
+    owners = [(task["parameters"], known.task[task["title"]].by_name) for task in case.tasks]
+    skills = (skill for task in case.tasks for _role, skill in skills_of(task))
+    owners += [(skill["parameters"], known.skill[skill["name"]].by_name) for skill in skills]
+    for values, by_name in owners:
+        angles = (name for name in values if by_name[name].unit == "deg")
+        yield from (values[name] for name in angles if is_number(values[name]))
 
 
 def laid_otherwise(case: Case) -> Iterator[Warning]:

@@ -176,6 +176,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (NINETY, [to(80, 40), hold(120)], (), "value-lost"),
         ("Hold at 9,9 with the bow to the south-west.", [to(9, 9), hold(60)], (), "value-lost"),
         ("Head north to 9,9.", [to(9, 9)], (), None),
+        ("Hold at 9,9 for 90 s, bow to the east.", [to(9, 9), hold(90)], (), "value-lost"),
         ("End at C, that is 90,10, begin at 20,70.", [to(90, 10), to(20, 70)], (), "contradiction"),
         ("End at C, that is 90,10, begin at 20,70.", [to(20, 70), to(90, 10), to(0, 0)], (), None),
         (SITES, [to(60, 20), hold(60), to(20, 60)], (), None),
