@@ -317,7 +317,7 @@ def unpaired_coordinates(text: str) -> bool:
         for one in read_numbers(text)
         if one.unit in ("m", None)
         and not any(at <= one.start < end for at, end in paired)
-        and not (one.said in range(10) and _TIMES.search(text, 0, one.start))
+        and not (one.said in range(10) and _TIMES.search(text, max(0, one.start - 2), one.start))
     )
 
 
