@@ -77,9 +77,9 @@ def ran_with_notes(folder: Path) -> Path:
 
 
 CASES: dict[str, tuple[Make, list[str], str]] = {
-    "unresolved place": (plan(UNKNOWN), [], "is not known, and t1 needs it"),
-    "two tasks at it": (plan(UNKNOWN, UNKNOWN), [], "is not known, and t1, t2 need it"),
-    "no end": (plan(ENDLESS), [], "t1 PerformOrbit: its movement is not known in full"),
+    "unresolved place": (plan(UNKNOWN), [], "is not known, and task 1 needs it"),
+    "two tasks at it": (plan(UNKNOWN, UNKNOWN), [], "is not known, and tasks 1, 2 need it"),
+    "no end": (plan(ENDLESS), [], "task 1 PerformOrbit: its movement is not known in full"),
     "altered": (altered, [], "altered since Ada approved it"),
     "altered draft": (altered, ["--draft"], "altered since Ada approved it"),
     "not approved": (unapproved, [], "not approved"),
