@@ -124,7 +124,9 @@ def _by_axes(text: str, run: Run) -> list[Pair]:
     """The coordinates of a row of words behind "x" and a number behind "y": "x one eighty y forty";
     none where the second can be another number.
     """
-    between = _Y.match(text, run.end) if _X.search(text, max(0, run.start - 24), run.start) else None
+    between = (
+        _Y.match(text, run.end) if _X.search(text, max(0, run.start - 24), run.start) else None
+    )
     firsts = [path[0] for path in _paths(text, run.numbers, run.start, run.end, 1)]
     others = [one for one in read_all(text) if between and one.start == between.end()]
     plain = [one for one in others if not (one.unit or TIMES.match(text, one.stop))]

@@ -54,7 +54,9 @@ class Staging:
         way_out = "give its place with `plannerft review` or --locate of `plannerft plan`"
         for place in self.document["open_places"]:
             several = len(place["tasks"]) > 1
-            need = f"task{'s' * several} {', '.join(map(str, place['tasks']))} need{'s'[several:]} it"
+            need = (
+                f"task{'s' * several} {', '.join(map(str, place['tasks']))} need{'s'[several:]} it"
+            )
             problem = f"where {place['name']} is, is not known, and {need}"
             raise PlannerError(f"{problem}; {way_out}")
         for number, task in enumerate(self.document["tasks"], start=1):
@@ -63,7 +65,9 @@ class Staging:
                 raise PlannerError(f"task {number} has no skills that fit it; {hint}")
             if task["id"] in self.plan.track.open:
                 problem = "its movement is not known in full (a radius, an angle or a motion lacks)"
-                raise PlannerError(f"task {number} {task['title']}: {problem}; state it, plan again")
+                raise PlannerError(
+                    f"task {number} {task['title']}: {problem}; state it, plan again"
+                )
         if not self.document["tasks"]:
             raise PlannerError("the plan has no tasks; plan another command")
 
