@@ -7,6 +7,9 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import pytest
+from typer.testing import CliRunner
+
 import planner_ft.cli
 from planner_ft.cli.app import app
 
@@ -44,3 +47,11 @@ def test_every_help_text_belongs_to_an_option() -> None:
         assert set(keys) <= set(given), name
     assert set(TEXTS["about"]) <= set(options())
     assert set(TEXTS) <= {"about", "shared", "options", *options()}
+
+
+@pytest.mark.parametrize("command", sorted(options()))
+def test_help_is_shown(command: str) -> None:
+    """Help texts are rich markup, in which "[/...]" closes a tag."""
+    result = CliRunner().invoke(app, [command.replace("_", "-"), "--help"])
+    assert result.exit_code == 0, result.exception
+    assert "Usage" in result.output
