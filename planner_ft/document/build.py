@@ -71,7 +71,7 @@ def build(planned: Planned, vocabulary: Vocabulary, vehicle: Vehicle | None = No
         "format": FORMAT,
         "version": VERSION,
         "command": planned.command,
-        "vocabulary": vocabulary.named,
+        "vocabulary": {**vocabulary.named, **_motion_of(vocabulary)},
         "vehicle": (vehicle or load_vehicle(None, vocabulary)).as_json(),
         **({"origin": asdict(planned.origin)} if planned.origin else {}),
         **({"structures": charted} if charted else {}),
@@ -254,9 +254,20 @@ def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> Pla
             f"{path}: was made with another vocabulary ({named.get('name')!r}, other content) than"
             f" {vocabulary.name!r}; give its file with --vocabulary, or plan again"
         )
+    moved = named.get("motion")
+    if moved is not None and {"motion": moved} != _motion_of(vocabulary):
+        raise PlannerError(
+            f"{path}: was made with another motion file of {vocabulary.name!r}: its skills move the"
+            " vehicle otherwise now; give the file that it was made with, or plan again"
+        )
     if (wrong := document_problem(document, vocabulary)) is not None:
         raise PlannerError(f"{path}: {wrong}; {AS_WRITTEN}")
     return document
+
+
+def _motion_of(vocabulary: Vocabulary) -> dict[str, str]:
+    """The digest of what skills do to the vehicle; none without a motion file."""
+    return {"motion": vocabulary.motion.sha256} if vocabulary.motion.sha256 else {}
 
 
 def document_problem(document: Any, vocabulary: Vocabulary) -> str | None:

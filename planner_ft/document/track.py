@@ -9,12 +9,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from planner_ft.facts.units import converted
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.definition import Motion
+from planner_ft.vocabulary.plans import is_number
 
 Point = tuple[float, float]
 LegKind = Literal["go", "arc", "hold", "drift", "turn"]
 ARC_STEP = 10.0  # degrees between the points of an arc
+UNITS = {"speed": "m/s", "time": "s"}
 MOST_TURNS = 10  # turns of one arc that are drawn; more lie on them
 
 
@@ -85,8 +88,8 @@ def track(document: Entry, vocabulary: Vocabulary) -> Track:
     """The track of a plan document."""
     tasks: Sequence[Entry] = document["tasks"]
     pen = Pen(vocabulary, document.get("vehicle") or {})
-    for task in tasks:
-        pen.draw(task)
+    for number, task in enumerate(tasks, start=1):
+        pen.draw(task, fastest(document, number))
     circles, boundaries = _circles(tasks, vocabulary), _boundaries(tasks, vocabulary)
     shapes = tuple(circles), tuple(boundaries), tuple(_targets(document, vocabulary))
     return Track(tuple(pen.legs), *shapes, tuple(pen.open), pen.here)
@@ -121,11 +124,42 @@ def circle_of(task: Entry, vocabulary: Vocabulary) -> tuple[Point, float] | None
     return (center, float(radius)) if center and radius else None
 
 
-def stated(task: Entry, unit: str, vocabulary: Vocabulary) -> dict[str, Any]:
-    """The values in a unit that the parameters of a task state, by name."""
-    known, given = vocabulary.task.get(task["title"]), task["parameters"]
-    names = [item.name for item in (known.parameters if known else ()) if item.unit == unit]
-    return {name: given[name] for name in names if name in given}
+def stated(task: Entry, role: str, vocabulary: Vocabulary) -> tuple[str, float] | None:
+    """The parameter of a task that says its "speed" (in m/s) or "time" (in s), and its value."""
+    known, name = (
+        vocabulary.task.get(task["title"]),
+        vocabulary.motion.parameter(task["title"], role),
+    )
+    item, value = known.by_name.get(name) if known else None, task["parameters"].get(name)
+    if item is None or not is_number(value):
+        return None
+    unit = UNITS[role]
+    found = converted(value, item.unit or unit, unit)
+    return None if found is None else (name, found)
+
+
+def fastest(document: Entry, number: int) -> float:
+    """The speed in m/s that limits of the plan allow its task of this number; infinite without."""
+    limits = (one for one in document.get("limits", ()) if one["kind"] == "speed")
+    return min(
+        (one["values"]["speed"] for one in limits if number in one["tasks"]), default=math.inf
+    )
+
+
+def speed_of(task: Entry, vehicle: Entry, most: float, vocabulary: Vocabulary) -> float | None:
+    """Metres per second that a task goes at: what it says, else the vehicle's; at most `most`."""
+    said = stated(task, "speed", vocabulary)
+    speed = (said and said[1]) or vehicle.get("cruise_speed")
+    return min(speed, most) if speed else None
+
+
+def hold_time(task: Entry, vocabulary: Vocabulary) -> tuple[str, float] | None:
+    """(parameter, seconds) of a task whose one stay is a hold by a skill that takes no time."""
+    steps, motions = task.get("skill_sequence") or (), vocabulary.motion
+    moves = [motions.of(step["navigation_skill"]["name"]) for step in steps]
+    stays = [move for move in moves if move and move.kind in ("hold", "wait", "drift")]
+    timeless = [move for move in stays if move.kind == "hold" and "time" not in move.parameters]
+    return stated(task, "time", vocabulary) if len(stays) == len(timeless) == 1 else None
 
 
 class Pen:
@@ -139,11 +173,13 @@ class Pen:
         self.open: list[str] = []
         self._at = ("", 0, "")
         self._speed: float | None = None
+        self._most = math.inf
+        self._time: tuple[str, float] | None = None
         self._center: Point | None = None
 
-    def draw(self, task: Entry) -> None:
-        """Add the legs of a task, or note that it is open."""
-        self.begin(task)
+    def draw(self, task: Entry, most: float = math.inf) -> None:
+        """Add the legs of a task that goes at `most` m/s at most, or note that it is open."""
+        self.begin(task, most)
         known, place = self.vocabulary.task.get(task["title"]), place_of(task, self.vocabulary)
         if "waits_for" in task:
             self._leave_open()
@@ -157,10 +193,10 @@ class Pen:
             self._leave_open()
             self.here = None if known is None or known.leaves else place or self.here
 
-    def begin(self, task: Entry) -> None:
-        """Take over the speed and the centre of a task."""
-        speeds = stated(task, "m/s", self.vocabulary).values()
-        self._speed = next(filter(None, speeds), self.vehicle.get("cruise_speed"))
+    def begin(self, task: Entry, most: float = math.inf) -> None:
+        """Take over the speed, the time and the centre of a task."""
+        self._speed, self._most = speed_of(task, self.vehicle, most, self.vocabulary), most
+        self._time = hold_time(task, self.vocabulary)
         circle = self.vocabulary.motion.standoff(task["title"])
         self._center = place_of(task, self.vocabulary) if circle else None
         self._at = (task["id"], 0, "")
@@ -169,6 +205,9 @@ class Pen:
         """Add the leg of a navigation skill, in the step of this number (from 0)."""
         self._at = (self._at[0], number, skill["name"])
         motion, given = self.vocabulary.motion.of(skill["name"]), skill["parameters"]
+        usual = self._speed
+        if motion and (own := motion.value("speed", given)):
+            self._speed = min(float(own), self._most)
         if motion is None:
             self._leave_open()
         elif motion.kind == "go":
@@ -180,8 +219,11 @@ class Pen:
             self._turn(motion, given)
         else:
             time = motion.value("time", given)
+            if time is None and motion.kind == "hold" and self._time:
+                time = self._time[1]
             kind: LegKind = "drift" if motion.kind == "drift" else "hold"
             self._stay(kind, None if time is None else float(time))
+        self._speed = usual
 
     def _go(self, goal: Point) -> None:
         length = math.inf if self.here is None else math.dist(self.here, goal)

@@ -14,7 +14,7 @@ from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import Any
 
-from planner_ft.document.track import Leg, Track, stated, track
+from planner_ft.document.track import Leg, Track, hold_time, track
 from planner_ft.exporters.ledger import Account, Ledger
 from planner_ft.exporters.ledger import Path as Place
 from planner_ft.support.errors import PlannerError
@@ -61,7 +61,7 @@ class Action:
         """The stated values of the movement by their roles."""
         parameters, known = self.skill["parameters"], self.motion.parameters if self.motion else {}
         given = {role: parameters.get(name) for role, name in known.items()}
-        given |= {"time": self.entry["parameters"][self.timed]} if self.timed else {}
+        given |= {"time": self.leg.seconds} if self.timed and self.leg else {}
         return {role: value for role, value in given.items() if value is not None}
 
     def roles(self) -> Iterator[tuple[str, Place]]:
@@ -121,7 +121,7 @@ class PlanExport:
         """The movements that a format which cannot wait for a place carries."""
         found, legs = [], {(leg.task, leg.step): leg for leg in self.track.legs}
         for index, task in enumerate(self.document["tasks"][: self.ready]):
-            steps, own = task["skill_sequence"], self.hold_time(index)
+            steps, own = task["skill_sequence"], hold_time(task, self.vocabulary)
             for number, step in enumerate([{}] if steps is None else steps):
                 name = step["navigation_skill"]["name"] if step else ""
                 motion, leg = self.vocabulary.motion.of(name), legs.get((task["id"], number))
@@ -144,16 +144,6 @@ class PlanExport:
             ledger.lose("tasks", index, why=self.blocked[1] if self.blocked else "")
         if self.blocked:
             ledger.stop("tasks", self.ready)
-
-    def hold_time(self, index: int) -> tuple[str, float] | None:
-        """(parameter, seconds) of a task whose one stay is a hold by a skill that takes no time."""
-        task, motions = self.document["tasks"][index], self.vocabulary.motion
-        steps = task["skill_sequence"] or ()
-        moves = [motions.of(step["navigation_skill"]["name"]) for step in steps]
-        stays = [move for move in moves if move and move.kind in ("hold", "wait", "drift")]
-        timeless = [move for move in stays if move.kind == "hold" and "time" not in move.parameters]
-        times = list(stated(task, "s", self.vocabulary).items())
-        return times[0] if len(stays) == len(timeless) == len(times) == 1 else None
 
     def head_words(self, ledger: Ledger, form: str) -> Iterator[str]:
         """The words of the plan as a whole, which are entered as carried in this form."""

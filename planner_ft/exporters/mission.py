@@ -26,7 +26,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from planner_ft.document.track import Leg, Point, bearing, stated
+from planner_ft.document.track import Leg, Point, bearing, fastest, speed_of, stated
 from planner_ft.exporters.formats import TABLES, Action, Format, PlanExport, Written
 from planner_ft.exporters.ledger import Path
 from planner_ft.support.errors import PlannerError
@@ -100,7 +100,8 @@ class Mission:
         self.home = self.place(*plan.vocabulary.home)
         self.way: list[Point] = [plan.vocabulary.home]
         self.heading: float | None = None
-        self.speed = self.vehicle["cruise_speed"]
+        self.speed = self.usual = self.vehicle["cruise_speed"]
+        self.most = math.inf
         self.ledger = plan.ledger()
         for path in self.ledger.items:
             why = next((REASONS[key] for key in path if key in REASONS), WORDS)
@@ -143,15 +144,18 @@ class Mission:
         self.fences = tuple(tuple(self.place(*corner) for corner in corners) for corners in fences)
 
     def _change_speed(self, task: dict[str, Any], at: Path) -> None:
-        """Write the speed that a task states; a task that states none goes at the vehicle's own."""
-        named = stated(task, "m/s", self.vocabulary)
-        name = next((name for name in named if named[name]), None)
-        speed = named[name] if name else self.vehicle["cruise_speed"]
-        if speed != self.speed:
+        """Write the speed that a task states, else the vehicle's own, at most what limits allow."""
+        self.most = fastest(self.plan.document, int(at[1]) + 1)
+        self.usual = speed_of(task, self.vehicle, self.most, self.vocabulary)
+        self._set_speed(self.usual)
+        said = stated(task, "speed", self.vocabulary)
+        if said and said[1] == self.speed:
+            self.ledger.carry(*at, "parameters", said[0])
+
+    def _set_speed(self, speed: float | None) -> None:
+        if speed and speed != self.speed:
             self.items += [MissionItem(DO_CHANGE_SPEED, (1, speed, -1, 0))] * 2
             self.speed = speed
-        if name:
-            self.ledger.carry(*at, "parameters", name)
 
     def _write_step(self, action: Action) -> None:
         for place, skill in enumerate(action.step["filter_skills"]):
@@ -170,6 +174,8 @@ class Mission:
             return
         if action.timed:
             self.ledger.carry("tasks", action.task, "parameters", action.timed)
+        own = action.given.get("speed")
+        self._set_speed(min(own, self.most) if own else self.usual)
         write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
         if carried := write.get(motion.kind, self._turn)(action.given, leg):
             roles, form = carried
@@ -184,9 +190,9 @@ class Mission:
         self._go(leg, float(given.get("altitude") or 0))
         heading = given.get("heading")
         if heading is None or self.flies:
-            return ("x", "y", "altitude"), ""
+            return ("x", "y", "altitude", "speed"), ""
         self._turn_to(heading)
-        return ("x", "y", "altitude", "heading"), ""
+        return ("x", "y", "altitude", "speed", "heading"), ""
 
     def _arc(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         for point in leg.points[1:]:
@@ -196,7 +202,7 @@ class Mission:
         if given.get("angle") is None:
             own = f"{self.vehicle['orbit_angle']:g} degrees are the vehicle's own"
             form += f"; the plan says no angle, {own}"
-        return ("radius", "angle"), form
+        return ("radius", "angle", "speed"), form
 
     def _hold(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         if given.get("time") is not None:

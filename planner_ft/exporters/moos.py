@@ -9,6 +9,7 @@ docs/exporters.md says how it is used; the sources of the syntax are named in mo
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from planner_ft.document.track import fastest
 from planner_ft.exporters.formats import Action, Format, PlanExport, Written
 from planner_ft.exporters.ledger import LISTS
 from planner_ft.exporters.moos_behaviours import (
@@ -40,7 +41,8 @@ class _File:
         vehicle = self.document.get("vehicle") or {}
         self.area = vehicle.get("area")
         speed = float(vehicle.get("cruise_speed") or DEFAULT_SPEED)
-        moves = [(action, move_of(action, speed)) for action in plan.actions]
+        most = [fastest(self.document, number + 1) for number in range(len(self.document["tasks"]))]
+        moves = [(one, move_of(one, min(speed, most[one.task]))) for one in plan.actions]
         for action in (action for action, move in moves if move is None and action.step):
             self.ledger.lose(*action.at, why=TABLE["unknown"])
         known = ((action, move) for action, move in moves if move)

@@ -147,7 +147,7 @@ def _go(given: Mapping[str, Any], speed: float) -> Move | None:
         return None
     losses = {role: LOSSES[role] for role in ("heading", "altitude") if role in given}
     goal = _waypoints([(given["x"], given["y"])], speed)
-    return Move(goal, forms={"x": "", "y": ""}, losses=losses)
+    return Move(goal, forms={"x": "", "y": "", "speed": ""}, losses=losses)
 
 
 def _arc(leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move | None:
@@ -158,7 +158,9 @@ def _arc(leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move | None
         form += ", as far round as the vehicle's profile says: the plan says no angle"
     elif abs(given["angle"]) > DRAWN:
         form += f", which end after {number(DRAWN)} degrees"
-    return Move(_waypoints(leg.points[1:], speed), forms={"radius": form, "angle": form})
+    return Move(
+        _waypoints(leg.points[1:], speed), forms={"radius": form, "angle": form, "speed": ""}
+    )
 
 
 def _hold(given: Mapping[str, Any], speed: float) -> Move:

@@ -14,7 +14,7 @@ import numpy as np
 
 from planner_ft.document.limits import limits_of
 from planner_ft.document.structures import ROUND, Allowed, Structure, fence, structures
-from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of, shown
+from planner_ft.document.track import Leg, Point, circle_of, hold_time, place_of, point_of, shown
 from planner_ft.exporters.formats import PlanExport
 from planner_ft.simulation.asked import GUIDANCE, LEARNT, WAYPOINTS, SimulationSettings
 from planner_ft.simulation.executor import Stage
@@ -137,8 +137,8 @@ class Staging:
 
     def stages(self) -> Iterator[Stage]:
         """The steps of all tasks in their order."""
-        for index, task in enumerate(self.document["tasks"]):
-            own = self.plan.hold_time(index)
+        for task in self.document["tasks"]:
+            own = hold_time(task, self.vocabulary)
             stages = [
                 self._stage(task, number, step, own[1] if own else None)
                 for number, step in enumerate(task["skill_sequence"])

@@ -266,8 +266,13 @@ def motion_problems(
         if title not in tasks:
             yield f"{where}: it is not defined"
         else:
-            known = tasks[title].by_name
-            yield from _roles(entry, _keys()["standoff"], known, where, "a stand-off")
+            keys, known = _keys()["standoff"], tasks[title].by_name
+            alone = {*keys["alone"]}
+            if entry and entry.keys() <= alone:
+                keys = {**keys, "needed": []}  # names no circle
+            yield from _roles(entry, keys, known, where, "a stand-off")
+            ring = {role: name for role, name in entry.items() if role not in alone}
+            yield from _units(ring, known, where)
 
 
 def _motion(entry: Entry, skill: Skill | None, where: str) -> Iterator[str]:
@@ -281,6 +286,8 @@ def _motion(entry: Entry, skill: Skill | None, where: str) -> Iterator[str]:
             yield f"{where}: motion = {kind!r} does not fit the role {skill.role}"
         roles = {role: name for role, name in entry.items() if role != "motion"}
         yield from _roles(roles, kinds[kind], skill.by_name, where, kind)
+        own = {*kinds[kind].get("needed", ()), *kinds[kind].get("optional", ())}
+        yield from _units({one: roles[one] for one in own & {*roles}}, skill.by_name, where)
 
 
 def _roles(
@@ -296,6 +303,16 @@ def _roles(
         else:
             kind = {"polygon": "polygon", "center": "position"}.get(role, "number")
             yield from _names_parameter(where, role, name, parameters, kind)
+
+
+def _units(entry: Entry, parameters: Mapping[str, Parameter], where: str) -> Iterator[str]:
+    """Parameters of movements in other units than those that movements are drawn and flown in."""
+    for unit, roles in _keys()["units"].items():
+        for role in roles:
+            found = parameters.get(entry[role]) if isinstance(entry.get(role), str) else None
+            if found and found.unit not in (None, unit, *_keys()["spellings"][unit]):
+                way = f"movements are in {unit}: define it, its bounds and its templates so"
+                yield f"{where}: {role} = {found.name!r} is in {found.unit}, and {way}"
 
 
 def _names_parameter(

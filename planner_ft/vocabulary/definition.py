@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import read_text, read_toml, sha256_text
+from planner_ft.support.files import compact_json, read_text, read_toml, sha256_text
 from planner_ft.vocabulary import checks
 from planner_ft.vocabulary.checks import Entry
 
@@ -125,12 +125,26 @@ class Standoff:
     arc: str | None = None
 
 
+TASK_ROLES = {"speed": "speed", "time": "duration"}
+"""What a task's own parameters may say of its movement (how fast, in m/s; how long its one stay
+lasts, in s), and the names of those that say it where the motion file names no others.
+"""
+
+
 @dataclass(frozen=True)
 class Motions:
-    """The motion of skills by name and the stand-off of tasks by title."""
+    """The motion of skills by name, the stand-off of tasks by title, and the parameters of tasks by
+    title and role (TASK_ROLES). `sha256` is the digest of what the file says, "" without one.
+    """
 
     skills: Mapping[str, Motion] = field(default_factory=dict)
     standoffs: Mapping[str, Standoff] = field(default_factory=dict)
+    named: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    sha256: str = ""
+
+    def parameter(self, title: str, role: str) -> str:
+        """The name of a task's parameter that says its speed or its time."""
+        return self.named.get(title, {}).get(role, TASK_ROLES[role])
 
     def of(self, skill: str) -> Motion | None:
         """What a skill does to the vehicle; None for a skill that nothing is declared for."""
@@ -297,8 +311,12 @@ def _motions(raw: Entry) -> Motions:
     for name, entry in raw.get("skill", {}).items():
         roles = {role: key for role, key in entry.items() if role != "motion"}
         skills[name] = Motion(entry["motion"], roles)
-    standoffs = {title: Standoff(**entry) for title, entry in raw.get("task", {}).items()}
-    return Motions(skills, standoffs)
+    standoffs, named = {}, {}
+    for title, entry in raw.get("task", {}).items():
+        named[title] = {role: entry[role] for role in entry.keys() & TASK_ROLES.keys()}
+        if ring := {role: key for role, key in entry.items() if role not in TASK_ROLES}:
+            standoffs[title] = Standoff(**ring)
+    return Motions(skills, standoffs, named, sha256_text(compact_json(raw)) if raw else "")
 
 
 def _logic(raw: Entry) -> Logic:

@@ -95,6 +95,12 @@ def test_one_changed_digit_is_seen(plan: PlanDocument, tmp_path: Path) -> None:
         ),
         (
             lambda plan: json.dumps(
+                {**plan, "vocabulary": {**plan["vocabulary"], "motion": "0" * 64}}
+            ),
+            "was made with another motion file",
+        ),
+        (
+            lambda plan: json.dumps(
                 {**plan, "vocabulary": {"name": "/etc/passwd", "sha256": "0" * 64}}
             ),
             "which is not bundled",
@@ -277,3 +283,11 @@ def test_a_place_that_was_filled_in_is_located_in_its_tasks_and_an_open_one_is_n
     assert plan["located"] == {} and plan["open_places"] == [{"name": "buoy", "tasks": [2, 3]}]
     assert [one.get("waits_for") for one in plan["tasks"]] == [None, "buoy", "buoy"]
     assert not any("located" in one for one in plan["tasks"])
+
+
+def test_a_plan_without_the_digest_of_its_motion_file_is_read(
+    plan: PlanDocument, tmp_path: Path
+) -> None:
+    old = {**plan, "vocabulary": {key: plan["vocabulary"][key] for key in ("name", "sha256")}}
+    write_document(tmp_path / "plan.json", old)
+    assert read_document(tmp_path / "plan.json")["tasks"] == plan["tasks"]

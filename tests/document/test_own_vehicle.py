@@ -82,7 +82,7 @@ def test_what_a_definition_hardly_means_is_told(rover: Path) -> None:
     horn = (
         '[[skill]]\nname = "Horn"\ncategory = "Data"\nrole = "perception"\ndescription = "Horn"\n'
     )
-    text = rover.read_text().replace('unit = "s"', 'unit = "ticks of a clock"')
+    text = rover.read_text().replace('unit = "s"', 'unit = "ticks of a clock"', 1)
     rover.write_text(f"{text}\n{horn}")
     first = check_vehicle(str(rover))[0]
     assert first.state == "ready" and "no task lists the skill Horn" in first.text

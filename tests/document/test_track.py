@@ -6,11 +6,17 @@ import dataclasses
 import itertools
 import json
 import math
+import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from planner_ft.document.track import Track, estimate, track
+import planner_ft.vocabulary
+from planner_ft.document.track import Track, estimate, stated, track
+from planner_ft.support.files import read_toml
+from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.definition import build_vocabulary
 from tests.documents import DRONE, USV, document, step, task
 
 
@@ -36,6 +42,49 @@ def test_legs_follow_each_other_from_home() -> None:
 def test_a_task_s_own_speed_counts() -> None:
     path = of(task("ParallelStructurePass", {"speed": 0.5}, [step("GoToXY", {"x": 0, "y": 10})]))
     assert path.legs[0].seconds == 20
+
+
+def test_a_limit_of_speed_holds_for_the_way() -> None:
+    plan = document([transit(0, 10)], constraints=["The vehicle goes no faster than 0.5 m/s."])
+    assert track(plan, USV).legs[0].seconds == 20
+    own = task("ParallelStructurePass", {"speed": 2}, [step("GoToXY", {"x": 0, "y": 10})])
+    limit = "The vehicle goes no faster than 0.5 m/s during Transit."
+    plan = document([own, transit(0, 0)], constraints=[limit])
+    assert [leg.seconds for leg in track(plan, USV).legs] == [5, 20]
+
+
+def test_the_time_of_a_task_is_that_of_its_one_stay() -> None:
+    stay = [step("VisualStationKeep")]
+    path = of(transit(0, 15), task("FeatureStare", {"duration": 120}, stay))
+    assert path.legs[-1].seconds == 120
+    assert of(task("FeatureStare", {}, stay)).legs[-1].seconds is None
+    assert of(task("FeatureStare", {"duration": 9}, stay * 2)).legs[-1].seconds is None
+
+
+def own(*changes: tuple[str, str], motion: dict[str, Any] | None = None) -> Vocabulary:
+    """The drone with another definition."""
+    folder = Path(planner_ft.vocabulary.__file__).parent
+    text = (folder / "inspection_drone.toml").read_text()
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    known = read_toml(folder / "inspection_drone.motion.toml")
+    return build_vocabulary(tomllib.loads(text), {}, "own", motion={**known, **(motion or {})})
+
+
+def test_a_task_s_time_is_converted_and_may_have_another_name() -> None:
+    hover = 'name = "duration", type = "number", unit = "s"'
+    minutes = own((hover, 'name = "duration", type = "number", unit = "min"'))
+    hold = {"id": "t1", "title": "HoverWatch", "parameters": {"duration": 2}}
+    assert stated(hold, "time", minutes) == ("duration", 120)
+    other = own((hover, 'name = "interval", type = "number", unit = "s"'))
+    hold["parameters"] = {"interval": 2}
+    assert stated(hold, "time", other) is None
+    named = own(
+        (hover, 'name = "interval", type = "number", unit = "s"'),
+        motion={"task": {"HoverWatch": {"time": "interval"}}},
+    )
+    assert stated(hold, "time", named) == ("interval", 2)
 
 
 def test_an_arc_goes_round_the_task_s_centre_clockwise() -> None:

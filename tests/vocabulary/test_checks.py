@@ -275,6 +275,20 @@ MOVES = "the motion file: skill "
             [f"{MOVES}Hover: unknown key 'speed'"],
         ),
         (
+            {"skill": {"Hover": {"motion": "turn-to", "heading": "time"}}},
+            [
+                f"{MOVES}Hover: heading = 'time' is in s, and movements are in deg: define it, its"
+                " bounds and its templates so"
+            ],
+        ),
+        ({"task": {"HoverWatch": {"time": "duration"}}}, []),
+        (
+            {"task": {"HoverWatch": {"speed": "duration", "time": "length"}}},
+            [
+                "the motion file: task HoverWatch: time = 'length' must name a parameter of type number"
+            ],
+        ),
+        (
             {"skill": {"StayInGeofence": {"motion": "boundary", "polygon": "corner"}}},
             [f"{MOVES}StayInGeofence: polygon = 'corner' must name a parameter of type polygon"],
         ),

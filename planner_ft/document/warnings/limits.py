@@ -58,8 +58,19 @@ def broken(case: Case) -> Iterator[Warning]:
         if most is not None and len(held) == len(case.tasks):
             if seconds > most:
                 yield warning("limit-broken", "plan", seconds=seconds, **words)
+        elif limit["kind"] == "duration":
+            yield from _lasting(values["duration"], held, case, words)
         elif found := _how(limit, held, case):
             yield warning("limit-broken", "task", case.by_id[found[0]], how=found[1], **words)
+
+
+def _lasting(most: float, held: list[Entry], case: Case, words: Entry) -> Iterator[Warning]:
+    """Tasks that take longer than a limit of their own."""
+    for task in held:
+        seconds = sum(leg.seconds or 0 for leg in case.path.of(task["id"]))
+        if seconds > most:
+            how = f"takes {seconds:.0f} s"
+            yield warning("limit-broken", "task", task, how=how, **words)
 
 
 def unplaced(case: Case) -> Iterator[Warning]:
@@ -108,15 +119,16 @@ def _how(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
         return _too_close(values, legs)
     if kind == "distance":
         home = case.vocabulary.home
-        away = [(math.dist(point, home), leg.task) for leg in legs for point in leg.points]
-        farthest, name = max(away, default=(0.0, ""))
+        away = ((math.dist(point, home), leg.task) for leg in legs for point in leg.points)
+        # A leg begins where the one before it has gone: the first that is there counts.
+        farthest, name = max(away, key=lambda one: round(one[0], 6), default=(0.0, ""))
         too_far = farthest > values["distance"] + TOLERANCE
         return (name, f"goes {farthest:.0f} m away from home") if too_far else None
     if kind == "speed":
         for task in held:
-            for speed in stated(task, "m/s", case.vocabulary).values():
-                if speed is not None and speed > values["speed"]:
-                    return task["id"], f"goes at {speed:g} m/s"
+            said = stated(task, "speed", case.vocabulary)
+            if said and said[1] > values["speed"]:
+                return task["id"], f"goes at {said[1]:g} m/s"
     return _recording(limit, held, case) if kind == "no_recording" else None
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from planner_ft.document.language import Clause
 from planner_ft.document.structures import MOVING
-from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.track import Leg, Point, place_of, shown
 from planner_ft.document.warnings.case import Case, Warning, named, warning
 from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
@@ -173,7 +173,9 @@ def area_and_reach(case: Case) -> Iterator[Warning]:
         place = place_of(task, case.vocabulary)
         reached = [*([place] if place else ()), *_reached(case, task["id"])]
         if vehicle.get("area"):
-            yield from _outside("area", task, reached, _polygon(vehicle["area"]))
+            area = _polygon(vehicle["area"])
+            found = list(_outside("area", task, reached, area))
+            yield from found or _leaving(task, case.path.of(task["id"]), area)
         if not vehicle.get("endurance"):
             continue
         reach = vehicle["cruise_speed"] * vehicle["endurance"] / 2
@@ -188,7 +190,18 @@ def _outside(kind: str, task: Entry, points: list[Point], area: Any) -> Iterator
 
     outside = next((point for point in points if not intersects_xy(area, *point)), None)
     if outside:
-        yield warning(f"outside-{kind}", task=task, place=shown(outside))
+        yield warning(f"outside-{kind}", "place", task, place=shown(outside))
+
+
+def _leaving(task: Entry, legs: Iterable[Leg], area: Any) -> Iterator[Warning]:
+    """A task with a leg that leaves the area between two waypoints in it."""
+    from shapely import LineString, intersects_xy
+
+    ways = [leg.points for leg in legs if len(leg.points) > 1]
+    inside = (way for way in ways if all(intersects_xy(area, *way[end]) for end in (0, -1)))
+    left = next((way for way in inside if not area.covers(LineString(way))), None)
+    if left:
+        yield warning("outside-area", "way", task, place=f"{shown(left[0])} to {shown(left[-1])}")
 
 
 def _boundaries(case: Case) -> Iterator[tuple[str, int | None, Any]]:

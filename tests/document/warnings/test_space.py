@@ -242,6 +242,27 @@ def test_an_area_in_a_constraint_that_is_no_limit_is_a_boundary_too(text: str, c
     assert len(told(plan, "outside-boundary")) == count
 
 
+def test_a_way_out_of_the_vehicle_s_area_between_two_places_in_it_is_told() -> None:
+    plan = document([go((0, 80)), go((90, 80)), go((0, 0))])
+    bay = [[-5, -5], [100, -5], [100, 90], [60, 90], [60, 20], [40, 20], [40, 90], [-5, 90]]
+    plan = revise({**plan, "vehicle": {**plan["vehicle"], "area": bay}}, USV)
+    left = [text for text in told(plan, "outside-area") if "on the way" in text]
+    assert [text.split(" leaves")[0] for text in left] == ["Task 2, Transit", "Task 3, Transit"]
+
+
+def test_what_goes_too_far_from_home_is_the_task_that_goes_out() -> None:
+    (found,) = broken(HOME, go((150, 0)), go((0, 0)))
+    assert found.startswith("Task 1, Transit: goes 150 m away")
+
+
+def test_a_limit_on_how_long_a_task_lasts_is_checked_for_it() -> None:
+    hold = task("KeepStation", {"duration": 600}, [step("StationKeep", {"time": 600})])
+    text = "The mission takes at most {} s during KeepStation."
+    (found,) = broken(text.format(60), go((9, 0)), hold)
+    assert found.startswith("Task 2, KeepStation: takes 600 s")
+    assert broken(text.format(600), go((900, 0)), hold) == []
+
+
 @pytest.mark.parametrize(
     ("x", "reach", "area"), [(100, 0, 0), (100.4, 1, 0), (100.6, 1, 1), (101, 1, 1)]
 )
