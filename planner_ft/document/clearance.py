@@ -32,6 +32,7 @@ from planner_ft.vocabulary import Entry, Vocabulary
 
 MOST_ROUNDS = 30
 ARC_STARTS = 24  # directions from the centre in which a part of a circle may begin
+FINE = 3.0  # metres of stand-off under which waypoints are written to the centimetre
 KEEPS_CLEAR = "keeps clear of a structure"
 Step = dict[str, Any]
 Marks = list[dict[str, Any]]
@@ -184,6 +185,8 @@ class _Steps:
         center, radius = reached[0].position, reached[0].standoff
         if self.circle and math.dist(self.circle[0], center) <= SAME:
             radius = self.circle[1]
+        if goal and math.dist(goal, center) >= radius:
+            return step  # small things have a small stand-off
         if self.face and math.dist(self.face.middle, center) <= SAME:
             return self._with_goal(step, offset(center, self.face.side, radius))
         if self.arc and here and (start := self._arc_start(here, center, radius)):
@@ -229,7 +232,10 @@ class _Steps:
         return goal and point_of(goal)
 
     def _with_goal(self, step: Step, goal: Sequence[float]) -> Step:
-        return with_goal(step, [round(part, 1) for part in goal], self.pen.vocabulary)
+        fine = any(one.standoff < FINE for one in self.known)
+        return with_goal(
+            step, [round(part, 2 if fine else 1) for part in goal], self.pen.vocabulary
+        )
 
 
 def way_round(

@@ -653,3 +653,14 @@ def test_ways_lead_round_closed_areas() -> None:
 )
 def test_things_are_told_of_at_their_position(text: str, named: list[str]) -> None:
     assert [words for words, _place in named_places(text, USV)] == named
+
+
+def test_a_small_thing_has_a_small_stand_off() -> None:
+    """What is gone to as far off as its circle is not moved, and no waypoint is rounded into it."""
+    turn = step("ArcTurn", {"radius": 0.5, "delta_yaw": 360})
+    weld = task("PerformOrbit", {"center": [7, -2], "radius": 0.5, "arc": 360}, [turn])
+    for start in (6.5, 7):
+        plan = document([transit(start, -2), weld])
+        moved = track(plan, USV).legs[0].points[-1]
+        assert math.dist(moved, (7, -2)) == pytest.approx(0.5, abs=0.01)
+        assert moved == (6.5, -2) or start == 7
