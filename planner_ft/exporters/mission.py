@@ -38,6 +38,7 @@ DO_CHANGE_SPEED, NAV_SET_YAW_SPEED = 178, 213
 FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3  # MAV_FRAME values
 SURFACE_BOAT, QUADROTOR = 11, 2  # MAV_TYPE values
 LONGEST_HOLD = 32767
+LEAST_ALTITUDE = 0.01  # metres: ArduPilot counts centimetres, and 0 means the altitude at hand
 WIDEST_TURN = 120.0  # degrees that one item turns at most: the vehicle takes the shorter way
 TABLE: dict[str, Any] = TABLES["mission"]
 REASONS, BY_MOTION, WORDS = TABLE["reasons"], TABLE["motion"], TABLE["words"]
@@ -176,15 +177,23 @@ class Mission:
             self.ledger.carry("tasks", action.task, "parameters", action.timed)
         own = action.given.get("speed")
         self._set_speed(min(own, self.most) if own else self.usual)
+        if level := self._stays_level(action.given):
+            self.ledger.lose(*at, why=TABLE["level"])
         write = {"go": self._move, "arc": self._arc, "hold": self._hold, "wait": self._wait}
         if carried := write.get(motion.kind, self._turn)(action.given, leg):
             roles, form = carried
-            self.ledger.carry(*at, "name", form=form)
+            if not level:
+                self.ledger.carry(*at, "name", form=form)
             if motion.kind == "hold" and "time" not in action.given:
                 self.ledger.stop(*at, "name")
             for role, path in action.roles():
-                if role in roles:
+                if role in roles and not (level and role == "altitude"):
                     self.ledger.carry(*path, form=form)
+
+    def _stays_level(self, given: Mapping[str, Any]) -> bool:
+        """Whether an altitude is stated that the autopilot takes as the one at hand."""
+        altitude = given.get("altitude")
+        return self.flies and altitude is not None and abs(altitude) < LEAST_ALTITUDE
 
     def _move(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         self._go(leg, float(given.get("altitude") or 0))

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, assume, given, settings
 
 from planner_ft.exporters import Origin, PlanExport, mission
 from planner_ft.exporters.mission import Mission, build_mission
+from planner_ft.exporters.run import stop_words
 from planner_ft.support.errors import PlannerError
 
 from .plans import BUOY, DRONE, MAST, USV, document, documents, origins, step, task
@@ -228,6 +229,18 @@ def test_what_flies_keeps_its_altitude_and_does_not_turn_on_the_spot() -> None:
         (command("NAV_WAYPOINT"), 0),
     ]
     assert flight.vehicle_type == 2 and written(MAST).vehicle_type == 11
+
+
+@pytest.mark.parametrize("altitude", [0, 0.004])
+def test_an_altitude_of_nothing_is_no_descent_and_the_account_says_so(altitude: float) -> None:
+    down = step("FlyToXY", {"x": 3, "y": 4, "altitude": altitude})
+    account = written([task("FlyToPoint", HERE, [down])], DRONE).ledger.close()
+    lost = [loss for loss in account.lost if "altitude at hand" in loss.why]
+    assert [(loss.what, loss.stops) for loss in lost] == [
+        ("FlyToXY (step 1)", True),
+        (f"FlyToXY altitude = {altitude} (step 1)", False),
+    ]
+    assert stop_words(account) == ["does not move as planned in task 1"]
 
 
 @pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
