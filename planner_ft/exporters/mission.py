@@ -38,6 +38,7 @@ DO_CHANGE_SPEED, NAV_SET_YAW_SPEED = 178, 213
 FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3  # MAV_FRAME values
 SURFACE_BOAT, QUADROTOR = 11, 2  # MAV_TYPE values
 LONGEST_HOLD = 32767
+MOST_HOLDS = 100  # items of one hold
 LEAST_ALTITUDE = 0.01  # metres: ArduPilot counts centimetres, and 0 means the altitude at hand
 WIDEST_TURN = 120.0  # degrees that one item turns at most: the vehicle takes the shorter way
 TABLE: dict[str, Any] = TABLES["mission"]
@@ -223,7 +224,10 @@ class Mission:
         seconds = given.get("time")
         if seconds is None:
             return None
-        whole = math.ceil(seconds)
+        whole, most = math.ceil(seconds), MOST_HOLDS * LONGEST_HOLD
+        if whole > most:
+            problem = f"{leg.task} holds for {whole} s, and a mission for {most} s at most"
+            raise PlannerError(f"{problem}; shorten the hold and plan again")
         for start in range(0, max(whole, 1), LONGEST_HOLD):
             self._at(NAV_LOITER_TIME, self._start(leg), min(whole - start, LONGEST_HOLD))
         return ("time",), f"as {whole} whole seconds" if whole != seconds else ""

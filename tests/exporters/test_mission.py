@@ -81,6 +81,13 @@ def test_a_long_hold_becomes_several_that_the_autopilot_can_count() -> None:
     assert sum(times) == 86400 and max(times) <= 32767
 
 
+def test_a_hold_that_fills_a_mission_is_refused() -> None:
+    assert len(items(step("StationKeep", {"time": 3_276_700}))) == 100
+    for time in (3_276_701, 1e12):
+        with pytest.raises(PlannerError, match=r"t1 holds for .*; shorten the hold"):
+            items(step("StationKeep", {"time": time}))
+
+
 def test_a_hold_without_a_time_has_no_end() -> None:
     assert items(step("StationKeep")) == [(command("NAV_LOITER_UNLIM"), (0, 0, 0, 0))]
     assert "the operator sends the vehicle on" in why(
