@@ -86,12 +86,13 @@ LOSSES: dict[str, str] = TABLE["losses"]
 STEP = "MISSION_STEP"
 CAPTURE_RADIUS = 2.0  # metres from a waypoint at which it counts as reached
 SLIP_RADIUS = 6.0  # metres from it within which it counts as passed once the distance grows
-TURN_SPEED = 0.5  # metres per second: most hulls need water past the rudder to turn
+RADII = 1 / 4, 3 / 4  # of the way there, or of the arc's radius: both at most, in that order
+LEAST_RADIUS = 0.01  # metres
+TURN_SPEED = 0.5  # metres per second at most: most hulls need water past the rudder to turn
 TURN_THRESHOLD = 5.0  # degrees from the heading at which a turn is complete
 LONGEST_TURN = 120.0  # seconds after which the helm goes on from a turn that is not complete
 ROUNDED = 1e-5  # share of a region's area by which corners rounded to millimetres may dent it
 DRAWN = 3600.0  # degrees of an arc that a plan's track holds
-TURN_FORM = TABLE["turn"].format(speed=number(TURN_SPEED), time=number(LONGEST_TURN))
 
 
 @dataclass(frozen=True)
@@ -112,13 +113,14 @@ def move_of(action: Action, cruise_speed: float) -> Move | None:
     """The behaviours of a movement, None where the plan says too little. Metres, seconds."""
     leg, given, motion = action.leg, action.given, action.motion
     speed = leg.metres / leg.seconds if leg and leg.metres and leg.seconds else cruise_speed
+    way, turn_speed = leg.metres if leg else 0.0, min(TURN_SPEED, cruise_speed)
     if not action.step:
-        return _go(dict(zip("xy", leg.points[-1], strict=True)) if leg else {}, speed)
+        return _go(dict(zip("xy", leg.points[-1], strict=True)) if leg else {}, speed, way)
     if motion is None:
         return None
     match motion.kind:
         case "go":
-            return _go(given, speed)
+            return _go(given, speed, way)
         case "arc":
             return _arc(leg, given, speed)
         case "hold" | "wait":
@@ -128,25 +130,29 @@ def move_of(action: Action, cruise_speed: float) -> Move | None:
             # over, as soon as the vehicle has stopped.
             return _timed("BHV_FullStop", given, delay_complete=given.get("time") or 0)
         case "turn-to" if "heading" in given:
-            return _turn_to(given["heading"])
+            return _turn_to(given["heading"], turn_speed)
         case _:
-            return _turn_by(given.get("angle", 0))
+            return _turn_by(given.get("angle", 0), turn_speed)
 
 
 def _settings(**values: float | str) -> list[tuple[str, str]]:
     return [(key, one if isinstance(one, str) else number(one)) for key, one in values.items()]
 
 
-def _waypoints(corners: Sequence[Point], speed: float) -> tuple[tuple[str, Settings]]:
-    radii = {"capture_radius": CAPTURE_RADIUS, "slip_radius": SLIP_RADIUS}
+def _waypoints(corners: Sequence[Point], speed: float, reach: float) -> tuple[tuple[str, Settings]]:
+    """A behaviour for waypoints that lie `reach` metres off (0: not known, or at hand)."""
+    usual = (CAPTURE_RADIUS, SLIP_RADIUS)
+    most = [max(reach * part, LEAST_RADIUS) for part in RADII] if reach else usual
+    capture, slip = map(min, usual, most)
+    radii = {"capture_radius": capture, "slip_radius": slip}
     return (("BHV_Waypoint", _settings(speed=speed, **radii, points=points(corners))),)
 
 
-def _go(given: Mapping[str, Any], speed: float) -> Move | None:
+def _go(given: Mapping[str, Any], speed: float, way: float) -> Move | None:
     if "x" not in given or "y" not in given:
         return None
     losses = {role: LOSSES[role] for role in ("heading", "altitude") if role in given}
-    goal = _waypoints([(given["x"], given["y"])], speed)
+    goal = _waypoints([(given["x"], given["y"])], speed, way)
     return Move(goal, forms={"x": "", "y": "", "speed": ""}, losses=losses)
 
 
@@ -158,9 +164,8 @@ def _arc(leg: Leg | None, given: Mapping[str, Any], speed: float) -> Move | None
         form += ", as far round as the vehicle's profile says: the plan says no angle"
     elif abs(given["angle"]) > DRAWN:
         form += f", which end after {number(DRAWN)} degrees"
-    return Move(
-        _waypoints(leg.points[1:], speed), forms={"radius": form, "angle": form, "speed": ""}
-    )
+    goals = _waypoints(leg.points[1:], speed, given.get("radius") or 0.0)
+    return Move(goals, forms={"radius": form, "angle": form, "speed": ""})
 
 
 def _hold(given: Mapping[str, Any], speed: float) -> Move:
@@ -179,17 +184,21 @@ def _timed(kind: str, given: Mapping[str, Any], **settings: Any) -> Move:
     return Move(((kind, [*_settings(**settings), *more]),), time is not None, forms, losses)
 
 
-def _turn_to(heading: float) -> Move:
+def _turn_to(heading: float, speed: float) -> Move:
     ends = {"complete_thresh": TURN_THRESHOLD, "duration": LONGEST_TURN}
     turn = ("BHV_ConstantHeading", _settings(heading=heading % 360, **ends))
-    way = ("BHV_ConstantSpeed", _settings(speed=TURN_SPEED))
-    return Move((turn, way), forms={"heading": TURN_FORM})
+    way = ("BHV_ConstantSpeed", _settings(speed=speed))
+    return Move((turn, way), forms={"heading": _turn_form(speed)})
 
 
-def _turn_by(angle: float) -> Move:
+def _turn_by(angle: float, speed: float) -> Move:
     turn = _settings(fix_turn=abs(angle), turn_dir="star" if angle >= 0 else "port")
-    turn += _settings(speed=TURN_SPEED, timeout=LONGEST_TURN)
-    return Move((("BHV_FixedTurn", turn),), forms={"angle": TURN_FORM})
+    turn += _settings(speed=speed, timeout=LONGEST_TURN)
+    return Move((("BHV_FixedTurn", turn),), forms={"angle": _turn_form(speed)})
+
+
+def _turn_form(speed: float) -> str:
+    return str(TABLE["turn"].format(speed=number(speed), time=number(LONGEST_TURN)))
 
 
 # ------------------------------------------------------------ boundaries and clearances

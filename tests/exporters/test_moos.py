@@ -149,6 +149,37 @@ def test_what_skills_become(
     assert {key: found.one(key) for key in said} == said
 
 
+@pytest.mark.parametrize(
+    ("name", "parameters", "radii"),
+    [
+        ("GoToXY", {"x": 30, "y": 40}, ["2", "6"]),
+        ("GoToXY", {"x": 0, "y": 8}, ["2", "6"]),
+        ("GoToXY", {"x": 0, "y": 2}, ["0.5", "1.5"]),
+        ("GoToXY", {"x": 0, "y": 0.01}, ["0.01", "0.01"]),
+        ("GoToXY", {"x": 0, "y": 0}, ["2", "6"]),
+        ("ArcTurn", {"radius": 8, "delta_yaw": 360}, ["2", "6"]),
+        ("ArcTurn", {"radius": 0.5, "delta_yaw": 360}, ["0.125", "0.375"]),
+    ],
+)
+def test_waypoints_are_not_reached_from_where_the_way_to_them_begins(
+    name: str, parameters: dict[str, Any], radii: list[str]
+) -> None:
+    go = step("GoToXY", {"x": 0, "y": 0})
+    *_, found = file([task("Diagnostics", {}, [go, step(name, parameters)])]).moving()
+    assert [found.one(key) for key in ("capture_radius", "slip_radius")] == radii
+
+
+@pytest.mark.parametrize(("cruise_speed", "speed"), [(0.05, "0.05"), (1.5, "0.5")])
+def test_a_turn_is_no_faster_than_the_vehicle(cruise_speed: float, speed: str) -> None:
+    turns = [step("NudgeYaw", {"delta_yaw": 30}), step("RotateToHeading", {"heading": 90})]
+    plan = document([task("Diagnostics", {}, turns)])
+    plan["vehicle"]["cruise_speed"] = cruise_speed
+    done = load_format("moos").write(PlanExport(plan, USV))
+    found = read(done.text).moving()
+    assert [one.one("speed") for one in found if one.all("speed")] == [speed, speed]
+    assert any(f"at {speed} m/s" in loss.why for loss in done.account.changed)
+
+
 def test_a_turn_to_a_heading_asks_for_a_speed_too() -> None:
     heading, speed = file(
         [task("Diagnostics", {}, [step("RotateToHeading", {"heading": 360})])]
