@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 from planner_ft.exporters import bt_nodes
 from planner_ft.exporters.bt_nodes import FIXED, TABLE, Node, attribute, plain_names, printable
-from planner_ft.exporters.formats import Format, PlanExport, Written
+from planner_ft.exporters.formats import Format, PlanExport, Written, typed
 from planner_ft.exporters.ledger import Path
 
 Element = ElementTree.Element
@@ -93,7 +93,8 @@ class _Tree:
         """The parameters and the prompt of a task, as attributes."""
         task, at = self.tasks[index], ("tasks", index)
         prompt = self._value((*at, "task_prompt"), task["task_prompt"])
-        return {**self._values((*at, "parameters"), task["parameters"]), "task_prompt": prompt}
+        given = typed(task["parameters"], self.vocabulary.task[task["title"]])
+        return {**self._values((*at, "parameters"), given), "task_prompt": prompt}
 
     def _values(self, at: Path, parameters: Entry) -> dict[str, str]:
         return {name: self._value((*at, name), value) for name, value in parameters.items()}
@@ -184,7 +185,8 @@ class _Tree:
     def _skill(self, parent: Element, at: Path, skill: Entry, outputs: dict[int, str]) -> None:
         """Add a skill; an output of its own becomes its port, and is taken from `outputs`."""
         node = self.nodes.skills[skill["name"]]
-        values = self._values((*at, "parameters"), skill["parameters"])
+        given = typed(skill["parameters"], self.vocabulary.skill[skill["name"]])
+        values = self._values((*at, "parameters"), given)
         self.ledger.carry(*at, "name")
         own = self.vocabulary.skill[skill["name"]].output
         number = next((number for number, text in outputs.items() if text == own), None)

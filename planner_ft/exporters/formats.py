@@ -20,13 +20,20 @@ from planner_ft.exporters.ledger import Path as Place
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import Origin
 from planner_ft.vocabulary import Vocabulary
-from planner_ft.vocabulary.definition import Motion
+from planner_ft.vocabulary.definition import Motion, Skill, Task
 
 GROUP = "planner_ft.formats"
 DRAFT = "DRAFT - NOT APPROVED"
 TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("tables.toml").read_text("utf-8"))
 BUNDLED: dict[str, str] = TABLES["formats"]
 NO_SKILL: dict[str, Any] = {"name": "", "parameters": {}}
+
+
+def typed(parameters: Mapping[str, Any], owner: Skill | Task) -> dict[str, Any]:
+    """Parameters with whole numbers as integers where the definition says so: 5 for 5.0."""
+    whole = [one.name for one in owner.parameters if one.type == "integer"]
+    given = {name: parameters[name] for name in whole if name in parameters}
+    return {**parameters, **{name: int(one) for name, one in given.items() if one == int(one)}}
 
 
 @dataclass(frozen=True)

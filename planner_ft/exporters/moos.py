@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from planner_ft.document.track import fastest
-from planner_ft.exporters.formats import Action, Format, PlanExport, Written
+from planner_ft.exporters.formats import Action, Format, PlanExport, Written, typed
 from planner_ft.exporters.ledger import LISTS
 from planner_ft.exporters.moos_behaviours import (
     STEP,
@@ -113,7 +113,7 @@ class _File:
         """The skills beside the movement, on while the step lasts; and the next step."""
         beside = [skill for role, skill in step_skills(action.step) if role != "navigation"]
         for skill in beside:
-            given = skill["parameters"].items()
+            given = typed(skill["parameters"], self.vocabulary.skill[skill["name"]]).items()
             texts = {key: one if isinstance(one, str) else compact_json(one) for key, one in given}
             state = "; ".join(["on", *(f"{key}={text}" for key, text in texts.items())])
             yield "activeflag", f"{variable(skill['name'])} = {quoted(state)}"

@@ -163,6 +163,13 @@ def test_a_list_whose_entries_hold_semicolons_is_json() -> None:
     assert found == ["a;b", 'json:["a; b", "c"]', 'json:["json:x"]']
 
 
+@pytest.mark.parametrize("steps", [None, ONE_STEP[0]["skill_sequence"]], ids=["open", "planned"])
+def test_whole_numbers_have_no_point_where_the_port_is_of_whole_numbers(steps: Any) -> None:
+    plan = document([task("HorizontalPanorama", {"sectors": 5.0}, steps)])
+    text = load_format("bt").write(PlanExport(plan, USV)).text
+    assert 'sectors="5"' in text and 'sectors="5.0"' not in text
+
+
 def test_what_is_said_of_the_plan_stands_in_comments() -> None:
     plan = document(
         MAST,

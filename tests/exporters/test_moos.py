@@ -4,6 +4,7 @@ harm.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -230,6 +231,16 @@ def test_skills_beside_a_movement_are_switched_on_and_off() -> None:
         "SKILL_LOCK_HEADING=on",
         "SKILL_LOCK_HEADING=off",
     ]
+
+
+def test_whole_numbers_are_posted_without_a_point() -> None:
+    zoom, number = USV.skill["DetectObjects"], USV.skill["StationKeep"].parameters[0]
+    levels = (replace(number, name="levels", type="integer"), replace(number, name="gain"))
+    vocabulary = replace(USV, skills=(*USV.skills, replace(zoom, name="Zoom", parameters=levels)))
+    beside = [("Zoom", {"levels": 5.0, "gain": 2.0})]
+    plan = document([task("Diagnostics", {}, [step("StationKeep", perception=beside)])], vocabulary)
+    text = load_format("moos").write(PlanExport(plan, vocabulary)).text
+    assert "on; levels=5; gain=2.0" in text
 
 
 def test_boundaries_and_clearances_stand_for_the_steps_that_have_them() -> None:
