@@ -18,6 +18,7 @@ UNITS = {
     "stand_off": "m",
 }
 STAND_OFF = 10.0  # metres kept from a structure where nothing else is said
+KINDS = ("boat", "rover", "copter")
 LARGEST = 1e9
 FULL_CIRCLE = 360
 
@@ -27,7 +28,8 @@ class Vehicle:
     """Speed in m/s, endurance in s, turn rate in degrees/s, `area` in metres (None: anywhere).
 
     `orbit_angle` (degrees) is how far the vehicle goes round a target by default, `stand_off`
-    (metres) what it keeps from structures.
+    (metres) what it keeps from structures. `kind`, one of KINDS, is what ground stations are told
+    (None: a boat, or a copter where its movements have altitudes).
     """
 
     name: str
@@ -37,10 +39,12 @@ class Vehicle:
     orbit_angle: float
     area: tuple[tuple[float, float], ...] | None = None
     stand_off: float = STAND_OFF
+    kind: str | None = None
 
     def as_json(self) -> dict[str, Any]:
-        """The profile as it stands in a plan document."""
-        return {**asdict(self), "area": self.area and [list(corner) for corner in self.area]}
+        """The profile as it stands in a plan document, which holds no kind that is not stated."""
+        profile = {**asdict(self), "area": self.area and [list(corner) for corner in self.area]}
+        return {key: value for key, value in profile.items() if key != "kind" or value}
 
 
 def load_vehicle(path: Path | str | None, vocabulary: Vocabulary) -> Vehicle:
@@ -74,14 +78,19 @@ def check_area(corners: Any) -> tuple[tuple[float, float], ...]:
 
 
 def _built(raw: dict[str, Any]) -> Vehicle:
-    unknown = [key for key in raw if key not in ("name", *UNITS, "area")]
+    keys = ("name", *UNITS, "area", "kind")
+    unknown = [key for key in raw if key not in keys]
     if unknown:
-        raise PlannerError(f"unknown key {unknown[0]!r}; there is name, {', '.join(UNITS)}, area")
+        raise PlannerError(f"unknown key {unknown[0]!r}; there is {', '.join(keys)}")
     name, area = raw.get("name"), raw.get("area")
     if not isinstance(name, str) or not name.strip():
         raise PlannerError("name must be a text")
     for key, unit in UNITS.items():
         if not is_number(raw.get(key)) or not 0 < raw[key] <= LARGEST:
             raise PlannerError(f"{key} = {raw.get(key)!r} must be a number above 0 ({unit})")
+    kind = raw.get("kind")
+    if kind is not None and kind not in KINDS:
+        raise PlannerError(f"kind = {kind!r} must be one of {', '.join(KINDS)}, or left out")
     amounts = {key: raw[key] for key in UNITS}
-    return Vehicle(name.strip(), **amounts, area=None if area is None else check_area(area))
+    area = None if area is None else check_area(area)
+    return Vehicle(name.strip(), **amounts, area=area, kind=kind)

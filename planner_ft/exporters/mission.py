@@ -36,7 +36,7 @@ NAV_WAYPOINT, NAV_LOITER_UNLIM, NAV_LOITER_TIME = 16, 17, 19
 DO_CHANGE_SPEED, NAV_SET_YAW_SPEED = 178, 213
 """MAV_CMD values (https://mavlink.io/en/messages/common.html#mav_commands)."""
 FRAME_GLOBAL, FRAME_MISSION, FRAME_RELATIVE_ALTITUDE = 0, 2, 3  # MAV_FRAME values
-SURFACE_BOAT, QUADROTOR = 11, 2  # MAV_TYPE values
+VEHICLE_TYPES = {"boat": 11, "rover": 10, "copter": 2}  # MAV_TYPE values by kind of vehicle
 LONGEST_HOLD = 32767
 MOST_HOLDS = 100  # items of one hold
 LEAST_ALTITUDE = 0.01  # metres: ArduPilot counts centimetres, and 0 means the altitude at hand
@@ -84,8 +84,8 @@ class Mission:
     """The items of a plan, the polygons that fence it in and its home as (latitude, longitude), and
     the account, still open.
 
-    `vehicle_type` is a MAV_TYPE: a surface boat, or a quadrotor for a vocabulary whose vehicle has
-    altitudes. `heading` is where the bow points, None while that is not known.
+    `vehicle_type` is the MAV_TYPE of the vehicle's kind; one whose profile states none is a surface
+    boat, or a quadrotor where its movements have altitudes. `heading` is where the bow points, None while that is not known.
     """
 
     def __init__(self, plan: PlanExport) -> None:
@@ -93,8 +93,9 @@ class Mission:
         self.plan, self.origin, self.vocabulary = plan, plan.origin, plan.vocabulary
         self.motions, self.vehicle = plan.vocabulary.motion, plan.document["vehicle"]
         moves = [motion for motion in self.motions.skills.values() if motion.kind == "go"]
-        self.flies = any("altitude" in motion.parameters for motion in moves)
-        self.vehicle_type = QUADROTOR if self.flies else SURFACE_BOAT
+        usual = "copter" if any("altitude" in one.parameters for one in moves) else "boat"
+        kind = self.vehicle.get("kind", usual)
+        self.flies, self.vehicle_type = kind == "copter", VEHICLE_TYPES[kind]
         self.items: list[MissionItem] = []
         self.fences: tuple[Polygon, ...] = ()
         area: list[tuple[Path, Sequence[Point]]] = [(("vehicle", "area"), self.vehicle["area"])]
@@ -197,12 +198,13 @@ class Mission:
         return self.flies and altitude is not None and abs(altitude) < LEAST_ALTITUDE
 
     def _move(self, given: Mapping[str, Any], leg: Leg) -> Carried:
-        self._go(leg, float(given.get("altitude") or 0))
-        heading = given.get("heading")
-        if heading is None or self.flies:
+        if self.flies:
+            self._go(leg, float(given.get("altitude") or 0))
             return ("x", "y", "altitude", "speed"), ""
-        self._turn_to(heading)
-        return ("x", "y", "altitude", "speed", "heading"), ""
+        self._go(leg)
+        if given.get("heading") is not None:
+            self._turn_to(given["heading"])
+        return ("x", "y", "heading", "speed"), ""
 
     def _arc(self, given: Mapping[str, Any], leg: Leg) -> Carried:
         for point in leg.points[1:]:
@@ -277,6 +279,8 @@ def write_qgc(plan: PlanExport) -> Written:
     mission = build_mission(plan, fences=True)
     mission.ledger.carry("vehicle", "cruise_speed", form=TABLE["speed"])
     mission.ledger.carry("command", form=TABLE["command"])
+    if "kind" in mission.vehicle:
+        mission.ledger.carry("vehicle", "kind")
     ours, speed = {"name": plan.name, "approval": plan.mark}, mission.vehicle["cruise_speed"]
     ours |= {key: plan.document[key] for key in ("digest", "command")}
     fences = [{"version": 1, "inclusion": True, "polygon": fence} for fence in mission.fences]

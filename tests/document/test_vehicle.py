@@ -5,12 +5,14 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from planner_ft.document.vehicle import check_area, load_vehicle
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.definition import BUNDLED
+from planner_ft.vocabulary.schema import document_schema
 from tests.documents import DRONE, USV, document, step, task
 
 
@@ -32,6 +34,21 @@ def test_a_file_replaces_what_it_says(tmp_path: Path) -> None:
     assert vehicle.as_json()["area"] == [[0, 0], [9, 0], [9, 9]]
 
 
+def test_a_kind_stands_in_the_plan_where_the_profile_states_one(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text('kind = "rover"\n')
+    vehicle = load_vehicle(tmp_path / "mine.toml", USV)
+    assert vehicle.as_json()["kind"] == "rover"
+    assert "kind" not in load_vehicle(None, USV).as_json()
+    go = [task("Transit", {"target_position": [5, 5]}, [step("GoToXY", {"x": 5, "y": 5})])]
+    plan = document(go, USV, command="Go to [5, 5].")
+    plan = {**plan, "vehicle": vehicle.as_json()}
+    jsonschema.validate(plan, document_schema(USV))
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(
+            {**plan, "vehicle": {**plan["vehicle"], "kind": "tank"}}, document_schema(USV)
+        )
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -42,6 +59,9 @@ def test_a_file_replaces_what_it_says(tmp_path: Path) -> None:
         ('name = ""', "name must be a text"),
         ("area = [[0, 0], [1, 1]]", "at least three positions"),
         ("area = [[0, 0], [9, 9], [9, 0], [0, 9]]", "cross or touch"),
+        ('kind = "hovercraft"', "kind = 'hovercraft' must be one of boat, rover, copter"),
+        ("kind = 3", "kind = 3 must be one of"),
+        ("kind = []", "kind = [] must be one of"),
         ("cruise_speed =", "not TOML"),
     ],
 )

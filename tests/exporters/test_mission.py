@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
+import json
 import math
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
+from pymavlink.dialects.v20 import ardupilotmega
 
 from planner_ft.exporters import Origin, PlanExport, mission
 from planner_ft.exporters.mission import Mission, build_mission
@@ -236,6 +238,26 @@ def test_what_flies_keeps_its_altitude_and_does_not_turn_on_the_spot() -> None:
         (command("NAV_WAYPOINT"), 0),
     ]
     assert flight.vehicle_type == 2 and written(MAST).vehicle_type == 11
+
+
+@pytest.mark.parametrize(
+    ("kind", "number"),
+    [("boat", "SURFACE_BOAT"), ("rover", "GROUND_ROVER"), ("copter", "QUADROTOR")],
+)
+@pytest.mark.parametrize("vocabulary", [USV, DRONE], ids=lambda vocabulary: vocabulary.name)
+def test_the_vehicle_is_of_the_kind_that_its_profile_states(
+    kind: str, number: str, vocabulary: Any
+) -> None:
+    name = "GoToXY" if vocabulary is USV else "FlyToXY"
+    go = step(name, {"x": 3, "y": 4} | ({"altitude": 9} if vocabulary is DRONE else {}))
+    plan = document([task(vocabulary.transit, HERE, [go])], vocabulary)
+    plan["vehicle"]["kind"] = kind
+    done = mission.write_qgc(PlanExport(plan, vocabulary, ORIGIN))
+    wanted = getattr(ardupilotmega, f"MAV_TYPE_{number}")
+    assert json.loads(done.text)["mission"]["vehicleType"] == wanted
+    assert ("vehicle", "kind") in done.account.carried - done.account.changed_paths
+    flown = any("altitude" in path for path in done.account.carried)
+    assert flown == (kind == "copter" and vocabulary is DRONE)
 
 
 @pytest.mark.parametrize("altitude", [0, 0.004])
