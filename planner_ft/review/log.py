@@ -6,7 +6,8 @@ A record has "sequence", "time" (UTC), "event", "reviewer", "reason", "digest", 
 
 A line is the RFC 8785 form of its record. `hash` is the SHA-256 of that form without the member
 `hash`, `previous` the hash of the line before. The head file beside the log holds sequence and hash
-of the last record, so that lines missing at the end are noticed, too.
+of the last record, so that lines missing at the end are noticed, too. It is there before the first
+record is, so that a log without it lost it.
 """
 
 import contextlib
@@ -114,8 +115,7 @@ def _line_problems(found: list[Record | str]) -> Iterator[Problem]:
 def _head_problems(records: tuple[Record, ...], head: Head | None) -> Iterator[Problem]:
     count = len(records)
     if head is None:
-        # One record without a head: its writer was killed before it could write the head.
-        if count > 1:
+        if count:
             text = "the head file is missing, so that lines removed at the end would not be seen"
             yield Problem(0, text)
         return
@@ -187,7 +187,9 @@ def append(log: Path, values: Record) -> Appended:
     with exclusive(log):
         chain = _sound(log)
         set_aside = _set_aside(log, chain)
-        if chain.records and _read_head(log) != chain.end:
+        if (head := _read_head(log)) is None:
+            _put_head(log, START)
+        elif head != chain.end:
             # Its writer was killed between the record and the head.
             _write_head(log, chain.end)
         time = datetime.now(UTC).isoformat(timespec="seconds")
@@ -245,10 +247,14 @@ def _read_head(log: Path) -> Head | None:
 
 def _write_head(log: Path, head: Head) -> None:
     try:
-        files.write_text(head_file(log), files.compact_json(head._asdict()) + "\n")
+        _put_head(log, head)
     except PlannerError as error:
         problem = f"record {head.sequence} stands in {log}, but its head file does not know it yet"
         raise PlannerError(f"{problem}: {error}") from None
+
+
+def _put_head(log: Path, head: Head) -> None:
+    files.write_text(head_file(log), files.compact_json(head._asdict()) + "\n")
     files.sync_folder(log.parent)
 
 

@@ -23,6 +23,7 @@ from planner_ft.document import PlanDocument
 from planner_ft.review import log as review_log
 from planner_ft.review.approval import approve
 from planner_ft.review.log import (
+    START,
     Head,
     append,
     check_log,
@@ -32,6 +33,7 @@ from planner_ft.review.log import (
     read_log,
 )
 from planner_ft.support.errors import PlannerError
+from tests.kills import changes
 
 RECORDS = 6
 
@@ -185,15 +187,38 @@ def test_a_head_file_that_is_missing_or_older_is_an_error(tmp_path: Path) -> Non
         existing_log(tmp_path / "none.jsonl")
 
 
+def test_a_log_cut_to_its_first_record_without_its_head_file_is_broken(tmp_path: Path) -> None:
+    log = tmp_path / "approvals.jsonl"
+    log.write_bytes(written(log, 2)[0])
+    head_file(log).unlink()
+    assert "head file is missing" in problem_of(log)
+
+
+def test_a_first_record_whose_writer_is_killed_at_any_change_leaves_a_sound_log(
+    tmp_path: Path,
+) -> None:
+    log, last, counts = tmp_path / "approvals.jsonl", 0, set()
+    while changes(lambda: append(log, {"event": "approved"}), tmp_path, last) is None:
+        chain = check_log(log)
+        assert not chain.problems
+        counts.add(len(chain.records))
+        append(log, {"event": "rejected"})
+        assert len(read_log(log)) == len(chain.records) + 1
+        for path in (log, head_file(log)):
+            path.unlink()
+        last += 1
+    assert counts == {0, 1}
+
+
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_head_one_behind_is_repaired_by_the_next_record(tmp_path: Path, count: int) -> None:
     """Its writer was killed after the record was on the disk."""
     log = tmp_path / "approvals.jsonl"
-    before = None
-    for _record in range(count):
-        before = head_file(log).read_bytes() if head_file(log).exists() else None
+    before = json.dumps(START._asdict()).encode()
+    for number in range(count):
+        before = head_file(log).read_bytes() if number else before
         append(log, {"event": "approved"})
-    head_file(log).unlink() if before is None else head_file(log).write_bytes(before)
+    head_file(log).write_bytes(before)
     assert not check_log(log).problems
     assert append(log, {"event": "rejected"}).record["sequence"] == count + 1
     assert [record["sequence"] for record in read_log(log)] == list(range(1, count + 2))

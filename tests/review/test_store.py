@@ -132,7 +132,7 @@ def chain_of(count: int) -> tuple[bytes, list[Head]]:
     ("count", "head", "said"),
     [
         (0, None, None),
-        (1, None, None),
+        (1, None, "head file is missing"),
         (2, None, "head file is missing"),
         (3, 3, None),
         (3, 2, None),
