@@ -239,7 +239,7 @@ def read_document(path: Path | str, vocabulary: Vocabulary | None = None) -> Pla
     if size > LARGEST_FILE:
         problem = f"has {size} bytes, more than the {LARGEST_FILE} of any plan"
         raise PlannerError(f"{path}: {problem}; {AS_WRITTEN}")
-    document = read_json(path)
+    document = read_json(path, unique=True)
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         way_out = f"write one with `plannerft plan COMMAND --out {path.name}`"
         raise PlannerError(f"{path}: is no plan document; {way_out}")

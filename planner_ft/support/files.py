@@ -125,7 +125,9 @@ def read_text(path: Path | str) -> str:
 
 
 def decode_json(text: str, *, unique: bool = False) -> tuple[Any, int, str | None]:
-    """(value, 0, None), or (None, line, problem), if `unique` also a key that stands twice."""
+    """(value, 0, None), or (None, line, problem), if `unique` also a key that stands twice; line 0
+    is one that is not known.
+    """
     try:
         hook = _unique if unique else None
         value = json.loads(text, parse_constant=_no_number, object_pairs_hook=hook)
@@ -138,7 +140,7 @@ def decode_json(text: str, *, unique: bool = False) -> tuple[Any, int, str | Non
     except UnicodeEncodeError:
         return None, 1, "not JSON that can be written again (half of a surrogate pair in a string)"
     except ValueError as error:
-        return None, 1, f"not JSON ({error})"
+        return None, 0, f"not JSON ({error})"
     return value, 0, None
 
 
@@ -150,16 +152,18 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in pairs:
         if key in found:
-            raise ValueError(f"the key {key!r} stands twice in an object")
+            raise ValueError(f"the key {key!r} stands twice in an object; keep one")
         found[key] = value
     return found
 
 
-def read_json(path: Path | str) -> Any:
-    """The value of a JSON file. Raises PlannerError with file, line and column of a mistake."""
-    value, line, problem = decode_json(read_text(path))
+def read_json(path: Path | str, *, unique: bool = False) -> Any:
+    """The value of a JSON file. Raises PlannerError with file, line and column of a mistake, if
+    `unique` also for a key that stands twice.
+    """
+    value, line, problem = decode_json(read_text(path), unique=unique)
     if problem is not None:
-        raise PlannerError(f"{path}:{line}: {problem}")
+        raise PlannerError(f"{path}:{line}: {problem}" if line else f"{path}: {problem}")
     return value
 
 

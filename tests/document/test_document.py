@@ -83,6 +83,7 @@ def test_one_changed_digit_is_seen(plan: PlanDocument, tmp_path: Path) -> None:
     [
         (lambda plan: json.dumps(plan)[:500], "not JSON"),
         (lambda plan: "", "not JSON"),
+        (lambda plan: json.dumps(plan)[:-1] + ', "edits": []}', "'edits' stands twice"),
         (lambda plan: "[]", "is no plan document"),
         (lambda plan: json.dumps({**plan, "version": 9}), "is of version 9"),
         (

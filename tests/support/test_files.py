@@ -87,6 +87,14 @@ def test_missing_and_broken_json_files(tmp_path: Path) -> None:
         read_json(tmp_path / "broken.json")
 
 
+def test_a_key_that_stands_twice_is_refused_where_asked(tmp_path: Path) -> None:
+    path = tmp_path / "twice.json"
+    path.write_text('{\n"a": [{"x": 999, "x": 30}]}')
+    assert read_json(path) == {"a": [{"x": 30}]}
+    with pytest.raises(PlannerError, match=r"twice.json: not JSON \(the key 'x' stands twice"):
+        read_json(path, unique=True)
+
+
 def test_compact_json_refuses_nan() -> None:
     assert compact_json({"a": [1, "é"]}) == '{"a":[1,"é"]}'
     with pytest.raises(ValueError):
