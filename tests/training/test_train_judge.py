@@ -42,6 +42,7 @@ def test_answers_are_scored_after_every_epoch_and_the_change_is_said(
     assert result["validation_answers"]["n"] == 2
     # A random model answers nothing that can be read.
     assert result["change"].startswith("no better than the base on 2 validation samples: F1 0.00")
+    assert "next: more validation samples, 2 can hardly tell the two apart" in result["change"]
     assert "next: " in result["change"]
     text = text_of(quiet)
     assert "base: F1 0.00, valid 0%, exact 0% of 2 answers" in text
