@@ -19,6 +19,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.geodesy import parse_origin
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary import plans as rules
+from planner_ft.vocabulary.limits import beyond_range
 from planner_ft.vocabulary.plans import step_skills
 
 Entry = dict[str, Any]  # a task of a plan document, a step or a skill
@@ -103,6 +104,9 @@ def constraint(draft: Draft, at: int, text: Any = None) -> None:
         raise PlannerError(f"constraint {at + 1}: the plan has {len(constraints)}")
     if text is not None and not entered.prompt_text(text):
         raise PlannerError(f"constraint {at + 1}: the text is empty; leave it out to remove it")
+    if text is not None and (number := beyond_range(text)):
+        problem = f"{entered.short(number)} is beyond all range"
+        raise PlannerError(f"constraint {at + 1}: {problem}; give a smaller number")
     constraints[at : at + 1] = [] if text is None else [entered.prompt_text(text)]
     document["constraints"] = constraints
     document["tasks"] = without_filters(document["tasks"])

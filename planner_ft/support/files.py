@@ -15,6 +15,8 @@ from typing import IO, Any
 
 from planner_ft.support.errors import PlannerError
 
+DIGITS = 300  # of a whole number at most: a float holds it
+
 
 def compact_json(value: Any) -> str:
     """JSON without spaces, keys in insertion order, no NaN: plans are trained and compared so."""
@@ -130,7 +132,8 @@ def decode_json(text: str, *, unique: bool = False) -> tuple[Any, int, str | Non
     """
     try:
         hook = _unique if unique else None
-        value = json.loads(text, parse_constant=_no_number, object_pairs_hook=hook)
+        readers = {"parse_float": _finite, "parse_int": _whole, "parse_constant": _no_number}
+        value = json.loads(text, **readers, object_pairs_hook=hook)
         if "\\u" in text:
             json.dumps(value, ensure_ascii=False).encode()
     except json.JSONDecodeError as error:
@@ -180,8 +183,14 @@ def read_toml(path: Path | str) -> dict[str, Any]:
 def _finite(text: str) -> float:
     value = float(text)
     if not math.isfinite(value):
-        raise ValueError(f"{text} is no number that can be used")
+        raise ValueError(f"{text[:20]} is no number that can be used")
     return value
+
+
+def _whole(text: str) -> int:
+    if len(text) > DIGITS:
+        raise ValueError(f"{text[:20]}... is no number that can be used")
+    return int(text)
 
 
 def iterate_jsonl(path: Path | str) -> Iterator[tuple[int, Any | None, str | None]]:

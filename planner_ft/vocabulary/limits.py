@@ -5,6 +5,7 @@ no faster than 1 m/s during SubseaCableTrack."
 """
 
 import functools
+import math
 import re
 import string
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,14 +21,15 @@ KINDS = (
     *("speed", "duration", "return", "no_recording"),
 )
 """What a limit can be about; a plan is checked by its kind."""
-NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+AMOUNT = r"\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+NUMBER = rf"-?{AMOUNT}"
 POSITION = rf"\[\s*{NUMBER}\s*,\s*{NUMBER}\s*\]"
 READ = {
     "polygon": rf"{POSITION}(?:\s*,\s*{POSITION}){{2,}}",
     "position": POSITION,
-    "distance": NUMBER,
-    "speed": NUMBER,
-    "duration": NUMBER,
+    "distance": AMOUNT,
+    "speed": AMOUNT,
+    "duration": AMOUNT,
     "object": r"[^\[\]]+?",
     "time": r".+?",
     "within": r".+?",
@@ -97,16 +99,24 @@ def prompt_sentence(kind: str, values: Entry, limits: Limits) -> str:
 
 
 def read_limit(text: str, limits: Limits) -> Limit | None:
-    """The limit of a canonical sentence; None for any other sentence."""
+    """The limit of a canonical sentence; None for any other sentence, as one with a negative
+    distance or a number beyond all range.
+    """
     line = " ".join(text.split())
     line, _during, scope = line.partition(DURING)
     titles = tuple(scope.removesuffix(".").split(AND)) if scope else ()
     for kind, known in limits.items():
         for reader in known.readers:
-            if found := reader.fullmatch(line):
+            if (found := reader.fullmatch(line)) and not beyond_range(line):
                 values = {name: _value(name, words) for name, words in found.groupdict().items()}
                 return Limit(kind, values, text, titles)
     return None
+
+
+def beyond_range(text: str) -> str | None:
+    """The first number of a text that no float holds."""
+    found = re.findall(NUMBER, text, re.IGNORECASE)
+    return next((number for number in found if math.isinf(float(number))), None)
 
 
 def slots(form: str) -> list[str]:
@@ -144,7 +154,7 @@ def _value(name: str, words: str) -> Any:
         return _number(words)
     if name not in ("polygon", "position"):
         return words
-    numbers = [_number(found) for found in re.findall(NUMBER, words)]
+    numbers = [_number(found) for found in re.findall(NUMBER, words, re.IGNORECASE)]
     points = [list(point) for point in zip(numbers[::2], numbers[1::2], strict=True)]
     return points if name == "polygon" else points[0]
 

@@ -392,6 +392,10 @@ def test_a_new_task_has_an_id_that_none_had_before(plan: PlanDocument) -> None:
         ({"kind": "constraint", "at": -1, "text": "x"}, "constraint 0: the plan has 0"),
         ({"kind": "constraint", "at": 0, "text": " "}, "constraint 1: the text is empty"),
         (
+            {"kind": "constraint", "at": 0, "text": "The vehicle stays within 1e999 m of home."},
+            "constraint 1: 1e999 is beyond all range",
+        ),
+        (
             {
                 "kind": "skill",
                 "task": "t4",

@@ -87,6 +87,16 @@ def test_missing_and_broken_json_files(tmp_path: Path) -> None:
         read_json(tmp_path / "broken.json")
 
 
+@pytest.mark.parametrize("number", ["1e999", "-1e999", "9" * 301, "NaN"])
+def test_a_number_beyond_all_range_is_one_sentence(tmp_path: Path, number: str) -> None:
+    path = tmp_path / "large.json"
+    path.write_text(f'{{"speed": {number}}}')
+    with pytest.raises(PlannerError, match=r"large.json: not JSON \(.* is no .*number"):
+        read_json(path)
+    path.write_text(f"[1e308, {'9' * 300}]")
+    assert read_json(path) == [1e308, int("9" * 300)]
+
+
 def test_a_key_that_stands_twice_is_refused_where_asked(tmp_path: Path) -> None:
     path = tmp_path / "twice.json"
     path.write_text('{\n"a": [{"x": 999, "x": 30}]}')

@@ -85,10 +85,20 @@ def test_a_limit_of_some_tasks_names_them() -> None:
     [
         *("The vehicle stays near [0, 0].", "Keep 70 m from it.", "", "The mission is short."),
         "The vehicle stays outside [10, 20], [30, 40].",  # Two corners are no area.
+        "The vehicle stays inside [0, 0], [1e999, 0], [1, 1].",
+        "The vehicle stays within 1e999 m of home.",
+        "The vehicle stays within -300 m of home.",
+        "The vehicle goes no faster than -1 m/s.",
+        "The mission takes at most -5 s.",
     ],
 )
 def test_other_sentences_are_no_limits(text) -> None:
     assert read_limit(text, USV) is None
+
+
+def test_powers_of_ten_are_read_in_either_case() -> None:
+    limit = read_limit("The vehicle stays inside [0, 0], [1E2, 0], [1e2, -1E2].", USV)
+    assert limit.values == {"polygon": [[0, 0], [100, 0], [100, -100]]}
 
 
 def test_numbers_keep_their_digits() -> None:
