@@ -49,6 +49,11 @@ where that is not done with the definition.
 """
 
 
+LIMIT = "Limit"  # stands in NAME.missions.toml for the limits of a command, beside the tasks
+PATTERNS = ["goto", "hold", "orbit", "square", "lawnmower", "pass", "line", "approach", "follow", "drift", "rotate", "visual", "sectors", "sweep", "arc"]
+"""Patterns of tasks that mean something."""
+
+
 @dataclass(frozen=True)
 class Part:
     """A file of a vehicle, the commands that it serves, and how it is."""
@@ -133,6 +138,8 @@ def _doubts(vocabulary: Vocabulary) -> Iterator[str]:
     if unused := [name for name in vocabulary.skill if name not in listed]:
         yield f"no task lists the skill {', '.join(unused)}"
     owners = [*vocabulary.tasks, *vocabulary.skills]
+    for task in (one for one in vocabulary.tasks if one.pattern not in PATTERNS):
+        yield f"the pattern {task.pattern!r} of {task.title} means nothing to planning"
     strange = {one.unit for owner in owners for one in owner.parameters if not named(one.unit)}
     for unit in sorted(filter(None, strange)):
         yield f"the unit {unit!r} is not known: numbers are taken as they are said"
@@ -144,12 +151,26 @@ def _beside(vocabulary: Vocabulary, path: Path) -> Iterator[Part]:
         state: State = "ready" if file.is_file() else "missing"
         text = "read" if file.is_file() else f"without it, {without}"
         try:
-            vocabulary.beside(f".{kind}.toml")
+            if unknown := _undefined(vocabulary.beside(f".{kind}.toml"), vocabulary):
+                named_so = f"{', '.join(unknown)}: the definition has no such name"
+                raise PlannerError(f"{file.name}: {named_so}; correct it, or remove the table")
             if load and file.is_file():
                 load(vocabulary)
         except PlannerError as error:
             state, text = "wrong", str(error)
         yield Part(file.name, serves, state, text)
+
+
+def _undefined(raw: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
+    """The tables of tasks and skills in a file that the definition does not have."""
+    known: dict[str, Iterable[str]] = {"task": vocabulary.task, "skill": vocabulary.skill}
+    tables = ((kind, raw[kind]) for kind in known if isinstance(raw.get(kind), dict))
+    return [
+        f"[{kind}.{name}]"
+        for kind, table in tables
+        for name in table
+        if name not in known[kind] and name != LIMIT
+    ]
 
 
 def _templates(vocabulary: Vocabulary) -> tuple[State, str]:

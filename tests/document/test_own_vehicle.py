@@ -89,6 +89,23 @@ def test_what_a_definition_hardly_means_is_told(rover: Path) -> None:
     assert "the unit 'ticks of a clock' is not known" in first.text
 
 
+def test_names_that_are_in_no_definition_are_told_file_by_file(rover: Path) -> None:
+    for ending, table in (("missions", "[task.Wate]"), ("simulation", "[skill.Wate]")):
+        path = rover.with_name(f"my_rover.{ending}.toml")
+        old = path.read_text() if path.is_file() else ""
+        path.write_text(f"{old}\n{table}\n")
+    found = {part.file: part for part in check_vehicle(str(rover))}
+    for ending, table in (("missions", "[task.Wate]"), ("simulation", "[skill.Wate]")):
+        part = found[f"my_rover.{ending}.toml"]
+        assert part.state == "wrong" and f"{table}: the definition has no such name" in part.text
+    assert found["my_rover.motion.toml"].state == "ready"
+
+
+def test_a_pattern_that_means_nothing_is_told(rover: Path) -> None:
+    rover.write_text(rover.read_text().replace('pattern = "square"', 'pattern = "fly"'))
+    assert "the pattern 'fly' of" in check_vehicle(str(rover))[0].text
+
+
 def test_tags_that_nothing_checks_are_named(rover: Path) -> None:
     path = rover.parent / "mission" / "train.jsonl"
     first, *rest = path.read_text().splitlines()
