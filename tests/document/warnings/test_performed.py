@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.documents import document, step, task
+from tests.documents import DRONE, document, step, task
 
 GRID = {"center": [100, 50], "width": 20, "length": 20, "spacing": 10}
 
@@ -47,6 +47,13 @@ def test_a_task_whose_steps_only_go_there_is_named() -> None:
     assert "no step performs it" in text
     assert found("ThermalHotspotLocalizer", {}, [go, step("RotateToHeading")]) == []
     assert found("Transit", {"target_position": [10, 10]}, [go]) == []
+
+
+def test_a_transit_that_stays_is_named() -> None:
+    title, place = DRONE.transit, DRONE.task[DRONE.transit].position_parameter
+    made = document([task(title, {place: [9, 9]}, [step("Hover", {"time": 9})])], DRONE)
+    told = [one["text"] for one in made["warnings"] if one["kind"] == "not-performed"]
+    assert len(told) == 1 and told[0].startswith(f"Task 1, {title}: n")
 
 
 def test_a_pass_that_is_shorter_than_its_length_is_named() -> None:
