@@ -32,6 +32,7 @@ PLACE_WORDS = re.compile(
 )
 IN_PROMPT = "task_prompt"
 """What holds the place of a pass; other tasks have it in a parameter."""
+KEPT_CLEAR = " It is kept clear of as a structure, unless its name is one of open water."
 ARTICLE = re.compile(r"^(?:the|an?|our|your|that|this)\s+", re.IGNORECASE)
 
 
@@ -156,14 +157,17 @@ def _passed(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Vocab
 def fitting(
     plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary
 ) -> tuple[dict[str, Position], list[str]]:
-    """The locations that resolve takes, and a note for each of the others."""
+    """The locations that resolve takes, and a note for each of the others: they are points of the
+    chart all the same, but for the unknown position.
+    """
     fits, notes = dict[str, Position](), list[str]()
     for name, position in locations.items():
         try:
             resolve(plan, {**fits, name: position}, vocabulary)
             fits[name] = position
         except PlannerError as problem:
-            notes.append(f"Not used: {problem}.")
+            known = tuple(position) != vocabulary.unresolved
+            notes.append(f"Not used for a task: {problem}.{KEPT_CLEAR if known else ''}")
     return fits, notes
 
 
@@ -187,7 +191,7 @@ def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
         return found[0]
     names = ", ".join(f'"{place.name}"' for place in found or places)
     problem = "fits several places" if found else "no such place is open"
-    there = f"there is {names}" if places else "the plan leaves no place open; plan without it"
+    there = f"there is {names}" if places else "the plan leaves no place open"
     raise PlannerError(f"--locate {name}: {problem}; {there}")
 
 

@@ -7,7 +7,9 @@ from typing import Any
 import pytest
 
 from planner_ft.planning.locations import (
+    KEPT_CLEAR,
     OpenPlace,
+    fitting,
     open_places,
     parse_location,
     parse_locations,
@@ -134,6 +136,13 @@ def test_a_location_that_cannot_be_used_is_an_error_that_says_what_is_open(
     with pytest.raises(PlannerError) as error:
         resolve(TWO_TARGETS, locations, USV)
     assert message in str(error.value)
+
+
+def test_a_note_says_that_what_is_no_place_of_a_task_is_kept_clear_of() -> None:
+    home = plan(("Transit", {"target_position": [0, 0]}, "Return home."))
+    fits, (pier, buoy) = fitting(home, {"pier": (50.0, 2.0), "buoy": (-99.0, -99.0)}, USV)
+    assert fits == {} and pier.endswith(f"leaves no place open.{KEPT_CLEAR}")
+    assert buoy.endswith("give where it is.")
 
 
 def test_a_location_for_a_plan_without_open_places_is_an_error() -> None:

@@ -13,6 +13,7 @@ import pytest
 from planner_ft.confidence.calibration import NO_LOGPROBS
 from planner_ft.document import build
 from planner_ft.document.tree import plan_tree
+from planner_ft.planning.locations import KEPT_CLEAR
 from planner_ft.planning.planner import Planner, SkillsKnown, TasksKnown
 from planner_ft.planning.result import Planned
 from planner_ft.support.errors import PlannerError
@@ -86,9 +87,10 @@ def test_a_location_that_the_plan_does_not_leave_open_is_a_note_and_the_others_a
     value = as_json(planned)
     assert value["located"] == {"green buoy": [120, -35]} and value["complete"]
     assert value["assumptions"][-2:] == [
-        'Not used: --locate lighthouse: no such place is open; there is "green buoy".',
-        'Not used: --locate green buoy: "green buoy" is located by "buoy" already; leave one of'
-        " them out.",
+        'Not used for a task: --locate lighthouse: no such place is open; there is "green buoy".'
+        + KEPT_CLEAR,
+        'Not used for a task: --locate green buoy: "green buoy" is located by "buoy" already; leave'
+        " one of them out." + KEPT_CLEAR,
     ]
 
 
