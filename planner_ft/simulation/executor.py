@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from planner_ft.simulation.measures import Observer
 
 RESERVE = 1.3  # how much more than the way home takes is kept of time and battery
+AROUND = 10.0  # seconds of the time that turning round and coming to rest take besides
 Outcome = Literal["running", "done", "returned", "stopped", "collision"]
 
 
@@ -176,7 +177,7 @@ class Executor:
         scene = self.scene
         away = np.linalg.norm(scene.position[runs] - np.array(scene.world.home), axis=1)
         seconds = RESERVE * away / scene.vessel.cruise
-        late = scene.time + seconds > self.most
+        late = scene.time + seconds + AROUND > self.most
         hotel = scene.vessel.hotel
         draw = np.maximum(scene.energy[runs] / scene.time + hotel, scene.vessel.draw)
         weak = scene.charge[runs] < seconds * draw * RESERVE

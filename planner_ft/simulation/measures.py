@@ -1,6 +1,7 @@
 """What a run came to: errors, violations, energy and data, measured against the truth."""
 
-from collections import Counter
+import math
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any
@@ -13,7 +14,7 @@ from planner_ft.simulation.executor import Executor, Running
 from planner_ft.simulation.fast import Bools, Floats, Runs
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill
-from planner_ft.simulation.world import PILE, Fence
+from planner_ft.simulation.world import PILE, Fence, Reach
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,18 @@ class Ring:
 
 
 @dataclass(frozen=True)
+class Bound:
+    """A limit of the plan in words, with the area that it keeps to or the seconds that the mission
+    may take; with `tasks` (ids) it holds for those alone, and its seconds for each of them.
+    """
+
+    text: str
+    area: Fence | Reach | None = None
+    seconds: float = math.inf
+    tasks: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
 class RunResult:
     """One run: metres, seconds, N s; errors are means over what they are measured at, None where
     there is none. `clearance` is the nearest that the vehicle came to a structure's surface.
@@ -54,6 +67,7 @@ class RunResult:
     standoff_error: float | None
     fence_violations: int
     clearance_violations: int
+    time_violations: int
     clearance: float | None
     energy: float
     charge_left: float
@@ -73,7 +87,7 @@ class Observer:
     """Watches an executor, which tells it what it has done; every record goes to `noted`."""
 
     scene: Scene
-    fences: Sequence[Fence]
+    bounds: Sequence[Bound]
     rings: Mapping[str, Ring]
     close: frozenset[str]
     tasks: Sequence[str]
@@ -83,9 +97,11 @@ class Observer:
         self.waypoints: list[list[float]] = [[] for _run in range(count)]
         self.holding, self.held, self.standing, self.stood, self.length = np.zeros((5, count))
         self.least = np.full(count, np.inf)
-        self.outside = np.zeros((count, len(self.fences)), dtype=bool)
+        self.over = np.zeros((count, len(self.bounds)), dtype=bool)
+        self.spent: dict[str, Floats] = defaultdict(lambda: np.zeros(count))  # seconds by task
         self.inside = np.zeros((count, len(structures)), dtype=bool)
         self.fence_violations, self.clearance_violations = np.zeros((2, count), dtype=int)
+        self.time_violations = np.zeros(count, dtype=int)
         self.records: list[Counter[str]] = [Counter() for _run in range(count)]
         self.reached: dict[str, Bools] = {}  # per task the runs that have come to its stand-off
         self.last = scene.pose[:, :2].copy()
@@ -110,12 +126,25 @@ class Observer:
         self.last = here.copy()
         near = scene.world.nearest(here)
         self.least = np.where(active, np.minimum(self.least, near), self.least)
-        for index, fence in enumerate(self.fences):
-            out = (fence.outside_by(here) > 0) & active
-            self.fence_violations += out & ~self.outside[:, index]
-            self.outside[:, index] = out
         for running, runs in groups:
             self._step(running, runs)
+            self._watch(running.stage.task, runs)
+
+    def _watch(self, task: str, runs: Runs) -> None:
+        """Count the limits that runs have broken since the last time step."""
+        scene = self.scene
+        self.spent[task][runs] += scene.seconds
+        for index, bound in enumerate(self.bounds):
+            if bound.tasks and task not in bound.tasks:
+                over = np.zeros(len(runs), dtype=bool)
+            elif bound.area is not None:
+                over = bound.area.outside_by(scene.pose[runs, :2]) > 0
+            else:
+                gone = self.spent[task][runs] if bound.tasks else np.full(len(runs), scene.time)
+                over = gone > bound.seconds + scene.seconds / 2
+            count = self.time_violations if bound.area is None else self.fence_violations
+            count[runs] += over & ~self.over[runs, index]
+            self.over[runs, index] = over
 
     def _step(self, running: Running, runs: Runs) -> None:
         stage, scene = running.stage, self.scene
@@ -154,6 +183,7 @@ class Observer:
             _mean(self.standing[run], self.stood[run]),
             int(self.fence_violations[run]),
             int(self.clearance_violations[run]),
+            int(self.time_violations[run]),
             round(float(self.least[run]), 2) if np.isfinite(self.least[run]) else None,
             round(float(scene.energy[run]), 1),
             round(float(scene.charge[run] / scene.vessel.capacity), 3),

@@ -120,6 +120,7 @@ COLUMNS = {
     "standoff_error": ("stand-off m ↓", 1, 3),
     "fence_violations": ("fences crossed ↓", 1, 2),
     "clearance_violations": ("stand-offs cut ↓", 1, 2),
+    "time_violations": ("times exceeded ↓", 1, 2),
     "energy": ("thrust kN s ↓", 1e-3, 2),
 }
 """Columns by figure: heading, factor and decimals."""

@@ -5,6 +5,7 @@ filters, end and failure modes stay what they are. `learnt = "..."` in [skill.NA
 of NAME.simulation.toml names the implementation.
 """
 
+import functools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -16,13 +17,14 @@ from planner_ft.document.limits import limits_of
 from planner_ft.document.structures import ROUND, Allowed, Structure, fence, structures
 from planner_ft.document.track import Leg, Point, circle_of, hold_time, place_of, point_of, shown
 from planner_ft.exporters.formats import PlanExport
+from planner_ft.planning.limits import time_left
 from planner_ft.simulation.asked import GUIDANCE, LEARNT, WAYPOINTS, SimulationSettings
 from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.fast import Vessel
-from planner_ft.simulation.measures import Ring
+from planner_ft.simulation.measures import Bound, Ring
 from planner_ft.simulation.sensing import MEASURES
 from planner_ft.simulation.skill import Job, implementation_of
-from planner_ft.simulation.world import PILE, Fence, World
+from planner_ft.simulation.world import PILE, Fence, Reach, World
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import SIMULATION, Motion
 
@@ -74,14 +76,34 @@ class Staging:
     @property
     def fences(self) -> list[Fence]:
         """The polygons that the whole plan keeps."""
-        areas = [
-            (limit["values"]["polygon"], limit["kind"] == "fence")
-            for limit in self.limits
-            if limit["kind"] in ("fence", "keep_out_area")
-        ]
+        areas = [one.area for one in self.bounds if not one.tasks]
+        return [area for area in areas if isinstance(area, Fence)]
+
+    @functools.cached_property
+    def bounds(self) -> list[Bound]:
+        """The limits on place and time, and the area of the vehicle, that runs are watched for."""
+        found = []
+        for limit in self.limits:
+            kind, values, text = limit["kind"], limit["values"], limit["text"].rstrip(".")
+            held = self._held(limit)
+            if kind in ("fence", "keep_out_area"):
+                found.append(Bound(text, _polygon(values["polygon"], kind == "fence"), tasks=held))
+            elif kind == "distance":
+                reach = Reach(self.vocabulary.home, float(values["distance"]))
+                found.append(Bound(text, reach, tasks=held))
+            elif kind == "duration":
+                found.append(Bound(text, seconds=float(values["duration"]), tasks=held))
+            elif kind == "return" and (left := time_left(values)) is not None:
+                found.append(Bound(text, seconds=left))
         if area := self.document["vehicle"]["area"]:
-            areas.append((area, True))
-        return [Fence(tuple(map(point_of, corners)), inside) for corners, inside in areas]
+            found.append(Bound("the area of the vehicle", _polygon(area, True)))
+        return found
+
+    def _held(self, limit: Entry) -> frozenset[str]:
+        """The ids of the tasks that a limit holds for, none where it holds for the whole mission."""
+        tasks, held = self.document["tasks"], limit["tasks"]
+        whole = len(held) == len(tasks)
+        return frozenset() if whole else frozenset(tasks[place - 1]["id"] for place in held)
 
     @property
     def allowed(self) -> Allowed:
@@ -91,17 +113,14 @@ class Staging:
     @property
     def seconds(self) -> float:
         """How long a run may take: the vehicle's endurance, or the plan's own limit."""
-        return self._most("duration", self.vessel.endurance)
+        whole = (one.seconds for one in self.bounds if not one.tasks)
+        return min([self.vessel.endurance, *whole])
 
-    @property
-    def speed(self) -> float:
-        """m/s that the plan may go at most."""
-        return self._most("speed", self.vessel.speed)
-
-    def _most(self, kind: str, own: float) -> float:
-        """The vehicle's own limit, or the least that the plan states."""
-        stated = [one["values"][kind] for one in self.limits if one["kind"] == kind]
-        return float(min([own, *stated]))
+    def speed(self, task: str) -> float:
+        """m/s that a task may go at most, by its id: the vehicle's own, or the least stated."""
+        limits = [one for one in self.limits if one["kind"] == "speed"]
+        held = [one for one in limits if task in (self._held(one) or (task,))]
+        return float(min([self.vessel.speed, *(one["values"]["speed"] for one in held)]))
 
     def rings(self) -> dict[str, Ring]:
         """The stand-off of each task that keeps one, by its id."""
@@ -161,7 +180,7 @@ class Staging:
             settings={"implementation": learnt, "standoff": ring.radius - reach, **folder},
             task=task["id"],
             step=rest[0].step,
-            speed=min(self.vessel.cruise, self.speed),
+            speed=min(self.vessel.cruise, self.speed(task["id"])),
             center=ring.center,
             tolerance=self.settings.tolerance,
             failure="survey failed",
@@ -194,7 +213,7 @@ class Staging:
         """The way home, with the vehicle's filters that keep clear and inside."""
         movement = Job(
             *("way home", {}, Motion("go", {}), {}, "home", 0, (self.vocabulary.home,)),
-            speed=min(self.vessel.cruise, self.speed),
+            speed=min(self.vessel.cruise, self.speed("home")),
             tolerance=self.settings.tolerance,
             failure="home not reached",
         )
@@ -237,7 +256,7 @@ class Staging:
     ) -> Job:
         name, vocabulary = skill["name"], self.vocabulary
         pace = leg.metres / leg.seconds if leg and leg.seconds and leg.metres else None
-        speed = min(pace or self.vessel.cruise, self.speed, self.vessel.speed)
+        speed = min(pace or self.vessel.cruise, self.speed(task["id"]))
         ring, motion = vocabulary.motion.standoff(task["title"]), vocabulary.motion.of(name)
         return Job(
             name,
@@ -254,6 +273,10 @@ class Staging:
             self.settings.tolerance,
             vocabulary.skill[name].failure or "failed",
         )
+
+
+def _polygon(corners: Sequence[Any], inside: bool) -> Fence:
+    return Fence(tuple(map(point_of, corners)), inside)
 
 
 def _all(stages: Sequence[Stage], role: str) -> list[Job]:

@@ -191,7 +191,9 @@ def suite_table(suite: Suite, ran: Ran, names: Sequence[str] = tuple(COLUMNS)) -
 def _rows(suite: Suite, mission: Mission, ran: Ran, names: Sequence[str]) -> Iterator[TableRow]:
     for simulator in suite.simulators:
         result = ran[mission.name, simulator]
-        cells = [cell(name, Estimate(**result["overall"][name])) for name in names]
+        cells = [
+            cell(name, Estimate(**result["overall"].get(name, {"value": None}))) for name in names
+        ]
         yield row(f"{mission.name}, {simulator}", str(len(result["runs"])), *cells)
     quoted = next(one for one in published_missions() if one["mission"] == mission.published)
     cells = [cell(name, Estimate(number(quoted, name))) for name in names]

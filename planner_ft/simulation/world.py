@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from planner_ft.document.structures import Allowed, Structure
+from planner_ft.document.structures import MARGIN, Allowed, Structure
 from planner_ft.document.track import Point
 from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.fast import Floats, Vessel
@@ -44,6 +44,19 @@ class Fence:
         points = shapely.points(places)
         found = shapely.line_interpolate_point(edge, shapely.line_locate_point(edge, points))
         return np.asarray(shapely.get_coordinates(found), dtype=float)
+
+
+@dataclass(frozen=True)
+class Reach:
+    """A distance from a place that the vehicle must stay within; half a metre more is let pass."""
+
+    center: Point
+    metres: float
+
+    def outside_by(self, places: Floats) -> Floats:
+        """Metres by which places (n, 2) lie farther off; negative: how far they keep it."""
+        away = np.linalg.norm(places - np.array(self.center), axis=1)
+        return np.asarray(away - self.metres - MARGIN, dtype=float)
 
 
 @dataclass(eq=False)

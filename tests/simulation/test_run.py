@@ -271,3 +271,45 @@ def test_violations_of_fences_are_counted(run: Run) -> None:
     assert {one.outcome for one in close.results} <= {"done", "returned"}
     assert "returned" in {one.outcome for one in close.results}
     assert max(one.seconds for one in close.results) < 120
+
+
+def test_a_time_to_be_back_is_kept(run: Run) -> None:
+    limit = ["The vehicle is back within 60 s."]
+    done = run(FAR, how={"constraints": limit})
+    assert outcome(done) == ({"returned"}, {"the time is nearly over"})
+    assert all(one.seconds < 60 and not one.time_violations for one in done.results)
+    # A current that the way home goes against.
+    late = run(FAR, how={"constraints": limit}, faults=read_faults(["current=1/90"]))
+    assert [one.time_violations for one in late.results] == [1, 1]
+
+
+def test_a_distance_from_home_is_watched(run: Run) -> None:
+    for metres, times in ((20, 1), (30, 0)):
+        limit = f"The vehicle stays within {metres} m of home."
+        done = run([transit(29.8, 0), transit(0, 0)], how={"constraints": [limit]})
+        assert [one.fence_violations for one in done.results] == [times, times]
+
+
+STAY = task("KeepStation", {"duration": 30}, [using(step("StationKeep", {"time": 30}))])
+
+
+def test_limits_of_one_task_hold_for_it_alone(run: Run) -> None:
+    tasks = [transit(40, 0), STAY, transit(0, 0)]
+
+    def ran(*constraints: str) -> Simulated:
+        done = run(tasks, how={"constraints": constraints})
+        assert all(one.success for one in done.results)
+        return done
+
+    def late(*constraints: str) -> list[int]:
+        return [one.time_violations for one in ran(*constraints).results]
+
+    assert late("The mission takes at most 20 s during KeepStation.") == [1, 1]
+    assert late("The mission takes at most 40 s during KeepStation.") == [0, 0]
+    away = ran("The vehicle stays within 10 m of home during KeepStation.")
+    assert [one.fence_violations for one in away.results] == [1, 1]
+    slow, free = (
+        ran(f"The vehicle goes no faster than 0.5 m/s during {title}.").results[0].seconds
+        for title in ("Transit", "KeepStation")
+    )
+    assert slow > 150 > free
