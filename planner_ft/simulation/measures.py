@@ -79,6 +79,12 @@ class RunResult:
         return self.outcome == "done"
 
 
+VIOLATIONS = {
+    "fence_violations": "fences crossed",
+    "clearance_violations": "stand-offs cut",
+    "time_violations": "times exceeded",
+}
+"""Figures that count broken limits, in words."""
 METRICS = [one.name for one in fields(RunResult)][3:-2]  # figures of a run that have a mean
 
 
@@ -143,7 +149,11 @@ class Observer:
                 gone = self.spent[task][runs] if bound.tasks else np.full(len(runs), scene.time)
                 over = gone > bound.seconds + scene.seconds / 2
             count = self.time_violations if bound.area is None else self.fence_violations
-            count[runs] += over & ~self.over[runs, index]
+            fresh = over & ~self.over[runs, index]
+            count[runs] += fresh
+            what = "time exceeded" if bound.area is None else "fence crossed"
+            for run in runs[fresh]:
+                self._tell(run, f"{what}: {bound.text}")
             self.over[runs, index] = over
 
     def _step(self, running: Running, runs: Runs) -> None:
@@ -163,8 +173,18 @@ class Observer:
         if len(scene.world.piles) and stage.task not in self.close:
             away = np.linalg.norm(here[:, None] - scene.world.piles[None], axis=-1)
             close = away < self.allowed[runs]
-            self.clearance_violations[runs] += (close & ~self.inside[runs]).sum(axis=1)
+            fresh = close & ~self.inside[runs]
+            self.clearance_violations[runs] += fresh.sum(axis=1)
             self.inside[runs] = close
+            for at, number in np.argwhere(fresh):
+                near, metres = scene.world.structures[number], f"{away[at, number]:.1f} m"
+                text = f"stand-off cut: {metres} from {near.name} instead of {near.standoff:g} m"
+                self._tell(runs[at], text)
+
+    def _tell(self, run: int, text: str) -> None:
+        """Write a broken limit into the log of a run, with where it truly is."""
+        x, y = self.scene.pose[run, :2]
+        self.scene.note(int(run), "event", {"text": f"{text}, at [{x:.1f}, {y:.1f}]"})
 
     def result(self, run: int, executor: Executor) -> RunResult:
         """The result of a run (from 0) so far."""
@@ -189,6 +209,14 @@ class Observer:
             round(float(scene.charge[run] / scene.vessel.capacity), 3),
             {task: self.records[run][task] for task in self.tasks},
         )
+
+
+def broken(results: Sequence[RunResult]) -> str:
+    """The limits that runs broke, in words, such as "fences crossed 2"; empty for none."""
+    totals = {
+        words: sum(getattr(one, name) for one in results) for name, words in VIOLATIONS.items()
+    }
+    return ", ".join(f"{words} {total}" for words, total in totals.items() if total)
 
 
 def summary(results: Sequence[RunResult], seed: int) -> dict[str, Estimate]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.simulation.measures import METRICS, RunResult, summary
+from planner_ft.simulation.measures import METRICS, RunResult, broken, summary
 from planner_ft.simulation.run import MANIFEST, RESULTS, Simulated
 from planner_ft.simulation.world import PILE
 from planner_ft.support.files import compact_json, read_csv, write_json, write_text
@@ -29,13 +29,16 @@ Line = Mapping[str, Any]
 def report_texts(done: Simulated, picture: str) -> dict[str, str]:
     """The report of run 1 by file ending."""
     result, plan = done.results[0], done.plan
+    limits = broken([result])
+    outcome = result.outcome + (f" ({result.reason})" if result.reason else "")
     where = "Places are metres east and north of [0, 0]."
     events = [one for one in done.log if one["kind"] in ("event", "end")]
     content = {
         "plan": plan,
         "result": result,
         "runs": len(done.results),
-        "outcome": result.outcome + (f" ({result.reason})" if result.reason else ""),
+        "outcome": outcome + (f"; limits of the plan broken: {limits}" if limits else ""),
+        "limits": limits or "none",
         "where": f"[0, 0] is {plan.origin}." if plan.origin else where,
         "tasks": [_task(task, done.log) for task in plan.document["tasks"]],
         "events": [f"{clock(one['t'])} {one['text']}" for one in events],
@@ -171,12 +174,16 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
 
 
 def outcome_lines(results: list[RunResult]) -> list[str]:
-    """How many runs ended how, in words."""
+    """How many runs ended how, in words, and which of the plan's limits they broke."""
     counts = Counter((one.outcome, one.reason) for one in results)
-    return [
-        f"{count} of {len(results)} runs: {outcome}{f' ({reason})' if reason else ''}"
-        for (outcome, reason), count in counts.most_common()
-    ]
+    lines = []
+    for (outcome, reason), count in counts.most_common():
+        same = [one for one in results if (one.outcome, one.reason) == (outcome, reason)]
+        line = f"{count} of {len(results)} runs: {outcome}{f' ({reason})' if reason else ''}"
+        if which := [one for one in same if broken([one])]:
+            line += f"; {len(which)} broke limits of the plan: {broken(which)}"
+        lines.append(line)
+    return lines
 
 
 def manifest(done: Simulated) -> dict[str, Any]:
@@ -278,7 +285,9 @@ def _drawn(done: Simulated) -> str:
     axes.set_ylabel("y north, m")
     axes.grid(color="#eee")
     ended = sum(one.success for one in done.results)
-    axes.set_title(f"{ended} of {len(done.results)} runs done; {done.settings.simulator} simulator")
+    title = f"{ended} of {len(done.results)} runs done; {done.settings.simulator} simulator"
+    limits = broken(done.results)
+    axes.set_title(title + (f"\nlimits of the plan broken: {limits}" if limits else ""))
     axes.legend(loc="best", fontsize=8)
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata={"Date": None})

@@ -23,7 +23,7 @@ from planner_ft.simulation.executor import Executor, Stage
 from planner_ft.simulation.fast import build_simulator, build_vessel, simulation_file
 from planner_ft.simulation.guidance import SETTLE
 from planner_ft.simulation.logs import RunLogs
-from planner_ft.simulation.measures import Observer, RunResult
+from planner_ft.simulation.measures import Observer, RunResult, broken
 from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.staging import PATIENCE, SLACK, Staging
 from planner_ft.simulation.world import World
@@ -193,7 +193,9 @@ def run_live(
             executor.abort(ONE, stop.reason)
 
     (result,) = simulate(settings, watch=watch).results
-    return {"outcome": result.outcome, "reason": result.reason, "seconds": result.seconds}
+    limits = f"limits of the plan broken: {told}" if (told := broken([result])) else ""
+    reason = "; ".join(filter(None, (result.reason, limits)))
+    return {"outcome": result.outcome, "reason": reason, "seconds": result.seconds}
 
 
 def frame_of(executor: Executor) -> Frame:

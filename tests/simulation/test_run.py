@@ -18,6 +18,7 @@ from mcap.stream_reader import StreamReader
 from planner_ft.cli import main
 from planner_ft.document import read_document, write_document
 from planner_ft.review import log_beside, reject
+from planner_ft.simulation import output
 from planner_ft.simulation.asked import read_faults
 from planner_ft.simulation.executor import Executor
 from planner_ft.simulation.run import Simulated, SimulationSettings, simulate
@@ -288,6 +289,16 @@ def test_a_distance_from_home_is_watched(run: Run) -> None:
         limit = f"The vehicle stays within {metres} m of home."
         done = run([transit(29.8, 0), transit(0, 0)], how={"constraints": [limit]})
         assert [one.fence_violations for one in done.results] == [times, times]
+        told = [line["text"] for line in lines(done) if line["kind"] == "event"]
+        report = (done.settings.folder / "report.md").read_text()
+        words = "limits of the plan broken: fences crossed 1"
+        assert [text.split(", at [")[0] for text in told] == [
+            f"fence crossed: {limit[:-1]}"
+        ] * times
+        assert all(text in report for text in told)
+        assert (f"done; {words}" in report) == (times == 1)
+        line = "2 of 2 runs: done; 2 broke limits of the plan: fences crossed 2"
+        assert output.outcome_lines(done.results) == [line if times else "2 of 2 runs: done"]
 
 
 STAY = task("KeepStation", {"duration": 30}, [using(step("StationKeep", {"time": 30}))])
@@ -313,3 +324,13 @@ def test_limits_of_one_task_hold_for_it_alone(run: Run) -> None:
         for title in ("Transit", "KeepStation")
     )
     assert slow > 150 > free
+
+
+def test_a_stand_off_that_is_cut_is_told(run: Run) -> None:
+    # The chart is wrong: the buoy truly stands beside the way.
+    chart, there = {"chart": {"wreck buoy": (20.0, 60.0)}}, {"wreck buoy": (20.0, 4.0)}
+    done = run([transit(40, 0)], how=chart, locations=there)
+    assert all(one.success and one.clearance_violations == 1 for one in done.results)
+    (told,) = (line["text"] for line in lines(done) if line["kind"] == "event")
+    assert told.startswith("stand-off cut: ") and "from wreck buoy instead of 10 m, at [" in told
+    assert "; 2 broke limits of the plan: stand-offs cut 2" in output.outcome_lines(done.results)[0]
