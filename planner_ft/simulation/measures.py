@@ -96,6 +96,7 @@ class Observer:
     bounds: Sequence[Bound]
     rings: Mapping[str, Ring]
     close: frozenset[str]
+    kept: Sequence[float]
     tasks: Sequence[str]
 
     def __post_init__(self) -> None:
@@ -112,8 +113,7 @@ class Observer:
         self.reached: dict[str, Bools] = {}  # per task the runs that have come to its stand-off
         self.last = scene.pose[:, :2].copy()
         start = np.linalg.norm(self.last[:, None] - scene.world.piles[None], axis=-1)
-        limits = [one.standoff - one.slack for one in structures]
-        self.allowed = np.minimum(np.array(limits), start - PILE) if structures else start
+        self.allowed = np.minimum(np.array(self.kept), start - PILE) if structures else start
 
     def noted(self, run: int, line: Mapping[str, Any]) -> None:
         """Count a record."""

@@ -131,7 +131,8 @@ class _Prepared:
             origin = self.plan.origin or Origin(0.0, 0.0)
             scene = Scene(self.world, self.simulator, self.starts, origin, writer.write)
             tasks = [task["id"] for task in self.plan.document["tasks"]]
-            observer = Observer(scene, staging.bounds, staging.rings(), staging.close(), tasks)
+            kept = staging.rings(), staging.close(), staging.least()
+            observer = Observer(scene, staging.bounds, *kept, tasks)
             way = [point for leg in self.plan.track.legs for point in leg.points]
             writer.begin(scene, observer, way)
             executor = Executor(self.stages, self.home, scene, observer, staging.seconds)

@@ -131,6 +131,27 @@ class Staging:
                 found[task["id"]] = Ring(*circle, known.pattern == SQUARE)
         return found
 
+    def least(self) -> list[float]:
+        """Metres from each structure below which its stand-off is cut: a limit holds but for what
+        legs may cut, the way round a structure may be off by the tolerance of a position.
+        """
+        around = {ring.center for ring in self.rings().values()}
+        firm: dict[Point | None, float] = {None: 0.0}  # None: from every structure
+        for limit in self.limits:
+            values, at = limit["values"], None
+            if limit["kind"] == "keep_out" and "position" in values:
+                at = point_of(values["position"])
+            elif limit["kind"] != "clearance":
+                continue
+            firm[at] = max(firm.get(at, 0.0), float(values["distance"]))
+        found = []
+        for one in self.structures:
+            held = max(firm[None], firm.get(one.position, 0.0))
+            loose = one.position in around and held < one.standoff
+            room = max(one.slack, self.settings.tolerance) if loose else one.slack
+            found.append(max(one.standoff - room, held - one.slack))
+        return found
+
     def close(self) -> frozenset[str]:
         """Tasks that come close to a structure on purpose: they dock, or pass along it."""
         known = {task["id"]: self.vocabulary.task[task["title"]] for task in self.document["tasks"]}

@@ -334,3 +334,21 @@ def test_a_stand_off_that_is_cut_is_told(run: Run) -> None:
     (told,) = (line["text"] for line in lines(done) if line["kind"] == "event")
     assert told.startswith("stand-off cut: ") and "from wreck buoy instead of 10 m, at [" in told
     assert "; 2 broke limits of the plan: stand-offs cut 2" in output.outcome_lines(done.results)[0]
+
+
+def test_the_turn_onto_a_circle_cuts_no_stand_off(run: Run) -> None:
+    circle = task(
+        "PerformOrbit",
+        {"center": [60, 0], "radius": 15, "arc": 360},
+        [using(step("ArcTurn", {"radius": 15, "delta_yaw": 360}))],
+        prompt="Circle the tower at [60, 0] at a stand-off of 15 m.",
+    )
+    done = run([transit(45, 0), circle])
+    assert all(one.success and not one.clearance_violations for one in done.results)
+    assert done.staging.least() == [14]
+    # A limit is no tolerance.
+    for metres, least in ((14.8, 14.3), (15, 14.5)):
+        limit = f"The vehicle stays at least {metres} m from [60, 0]."
+        assert run([transit(45, 0), circle], how={"constraints": [limit]}).staging.least() == [
+            least
+        ]
