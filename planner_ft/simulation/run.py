@@ -194,8 +194,9 @@ def run_live(
             executor.abort(ONE, stop.reason)
 
     (result,) = simulate(settings, watch=watch).results
-    limits = f"limits of the plan broken: {told}" if (told := broken([result])) else ""
-    reason = "; ".join(filter(None, (result.reason, limits)))
+    limits = broken([result])
+    words = f"limits of the plan broken: {limits}" if limits else ""
+    reason = "; ".join(filter(None, (result.reason, words)))
     return {"outcome": result.outcome, "reason": reason, "seconds": result.seconds}
 
 
