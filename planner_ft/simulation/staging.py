@@ -100,7 +100,7 @@ class Staging:
         return found
 
     def _held(self, limit: Entry) -> frozenset[str]:
-        """The ids of the tasks that a limit holds for, none where it holds for the whole mission."""
+        """The ids of the tasks that a limit holds for; none for one of the whole mission."""
         tasks, held = self.document["tasks"], limit["tasks"]
         whole = len(held) == len(tasks)
         return frozenset() if whole else frozenset(tasks[place - 1]["id"] for place in held)

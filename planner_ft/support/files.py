@@ -132,8 +132,13 @@ def decode_json(text: str, *, unique: bool = False) -> tuple[Any, int, str | Non
     """
     try:
         hook = _unique if unique else None
-        readers = {"parse_float": _finite, "parse_int": _whole, "parse_constant": _no_number}
-        value = json.loads(text, **readers, object_pairs_hook=hook)
+        value = json.loads(
+            text,
+            object_pairs_hook=hook,
+            parse_float=_finite,
+            parse_int=_whole,
+            parse_constant=_no_number,
+        )
         if "\\u" in text:
             json.dumps(value, ensure_ascii=False).encode()
     except json.JSONDecodeError as error:
