@@ -105,6 +105,9 @@ def fitted(
         known = f"{len(of_kind['plan'])} of {len(data.samples)} answers have log-probabilities"
         way = f"at least {LEAST} are needed: give more data, or another candidate"
         raise PlannerError(f"{data.path}: {known}; {way}")
+    if lacking := [kind for kind in KINDS if not of_kind[kind]]:
+        known = f"no answer has a part of the kind {lacking[0]}, so that nothing can be calibrated"
+        raise PlannerError(f"{data.path}: {known}; give more data, or a candidate that is trained")
     curves = {kind: _curve(found) for kind, found in of_kind.items()}
     figures = {kind: _held_out(found) for kind, found in of_kind.items()}
     return Calibration(level, curves, {"n": len(of_kind["plan"]), "held_out": figures})

@@ -80,6 +80,7 @@ class Judge:
         losses = [entry["validation_loss"] for entry in self.run.state.history]
         falling = len(losses) > 1 and losses[-1] <= min(losses)
         known = {"f1": f1, "exact": exact, "n": len(best), "settings": self.run.settings}
+        known["more"] = "--vary 3" if self.request.level == "mission" else "--augment 500"
         return sentences("judge", **known, falling=falling)[0]
 
 

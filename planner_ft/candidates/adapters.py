@@ -99,7 +99,7 @@ def check_adapter(
     change. Raises PlannerError in one sentence.
     """
     if not folder.is_dir():
-        command = f"`plannerft train --candidate {candidate.name}`"
+        command = f"`plannerft train --level {level or 'LEVEL'} --candidate {candidate.name}`"
         raise PlannerError(f"{folder}: no such adapter folder; train one with {command}")
     config, manifest = _config(folder), _manifest(folder)
     shapes = location.check_safetensors(location.safe_weights(folder, WEIGHTS))

@@ -53,6 +53,9 @@ def bench(o: Options) -> None:
     except ValueError:
         raise PlannerError(f"--batch-size {o.batch_size}: must be a number or auto") from None
     named = o.given(*RUN, *SERVER)
+    if o.processes > 1 and o.suite is None:
+        way_out = "start a single run with `accelerate launch`, or give --suite"
+        raise PlannerError(f"--processes {o.processes}: shares the parts of a suite; {way_out}")
     if o.field or o.level == "both":
         run_whole(o, named)
     elif o.suite is not None:

@@ -62,8 +62,14 @@ def save_full(model: Any, candidate: Candidate, learned: Vocabulary | None, fold
     `learned` is the vocabulary that the model knows without a prompt; config.json names it, so that
     the benchmark does not put it into prompts.
     """
-    with loading.quiet_bars():
-        model.save_pretrained(str(folder), safe_serialization=True)
+    from safetensors import SafetensorError
+
+    try:
+        with loading.quiet_bars():
+            model.save_pretrained(str(folder), safe_serialization=True)
+    except SafetensorError as error:  # a full disk is no OSError of this library
+        way = "free some space, or choose another folder with --out"
+        raise PlannerError(f"the weights cannot be written ({error}); {way}") from error
     config = folder / "config.json"
     for path in folder.glob("*.safetensors"):  # written readable for their owner alone
         path.chmod(config.stat().st_mode)

@@ -54,6 +54,11 @@ def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
     except ValueError as error:
         reason = str(error).splitlines()[0]
         raise PlannerError(f"--target-modules {settings.target_modules}: {reason}") from None
+    places = [name for name, _module in model.named_modules()]
+    named = settings.targets if isinstance(settings.targets, list) else []
+    if strange := [one for one in named if not any(f".{at}".endswith(f".{one}") for at in places)]:
+        problem = f"the model has no module {', '.join(strange)}"
+        raise PlannerError(f"--target-modules {settings.target_modules}: {problem}")
     for layer in peft_model.modules():
         # PEFT would copy every input to the adapter's float32, and autocast would copy it back.
         if hasattr(layer, "lora_A"):

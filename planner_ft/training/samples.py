@@ -150,7 +150,8 @@ def read_split(
     if not path.is_file():
         command = f"`plannerft gen-data --level {level}`"
         way_out = f"make the data with {command}, or give --data-dir or --train-file"
-        problems.append(f"{path}: no such file; {way_out}")
+        what = "is a folder, and a file is needed" if path.is_dir() else f"no such file; {way_out}"
+        problems.append(f"{path}: {what}")
         return None
     found: list[str] = []
     records: list[Record] = []

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from planner_ft.benchmark import calibrate
 from planner_ft.benchmark.calibrate import LEAST, fitted
 from planner_ft.benchmark.figures import confidence_figures
 from planner_ft.benchmark.samples import BenchData, Sample
@@ -126,6 +127,14 @@ def test_too_few_answers_or_none_with_log_probabilities_is_one_sentence() -> Non
     bare = {name: {**one, "logprobs": None} for name, one in lines.items()}
     with pytest.raises(PlannerError, match="0 of 60 answers have log-probabilities"):
         fitted("mission", data, bare, USV)
+
+
+def test_answers_without_tasks_are_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    judge = calibrate.judge
+    plans = lambda *given: [one for one in judge(*given) if one.part.kind == "plan"]  # noqa: E731
+    monkeypatch.setattr(calibrate, "judge", plans)
+    with pytest.raises(PlannerError, match="no answer has a part of the kind entry"):
+        fitted("mission", *answers(60), USV)
 
 
 def test_a_system_that_is_always_right_is_calibrated_too() -> None:

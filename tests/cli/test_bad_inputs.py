@@ -37,6 +37,7 @@ bench --level mission --candidates nobody --out OUT
 bench --level mission --candidates embedded --data /nowhere.jsonl --out OUT
 bench --level mission --candidates embedded --adapter /nowhere --configurations lora --out OUT
 bench --level boat --candidates embedded --out OUT
+bench --level mission --candidates embedded --processes 2 --out OUT
 bench --level mission --candidates , --out OUT
 bench --level mission --candidates embedded --vocabulary nobody --out OUT
 bench --level mission --endpoint nonsense --model x --out OUT

@@ -138,7 +138,14 @@ def test_the_checkpoint_before_a_damaged_one_goes_on(
     assert (tmp_path / "adapter" / "adapter_model.safetensors").read_bytes() == reference[1]
 
 
-def test_target_modules_that_fit_nothing_are_an_error(ask, quiet, tmp_path, short):
-    with pytest.raises(PlannerError, match="--target-modules query,key"):
-        train(ask(**short, target_modules="query,key"), quiet)
+@pytest.mark.parametrize(
+    ("modules", "told"),
+    [
+        ("query,key", "query,key"),
+        ("q_proj,q_projx", "q_proj,q_projx: the model has no module q_projx"),
+    ],
+)
+def test_target_modules_that_fit_nothing_are_an_error(ask, quiet, tmp_path, short, modules, told):
+    with pytest.raises(PlannerError, match=f"--target-modules {told}"):
+        train(ask(**short, target_modules=modules), quiet)
     assert not (tmp_path / "adapter").exists()
