@@ -109,7 +109,7 @@ def _choices(case: Case) -> Iterator[list[Choice]]:
                 for group in (*rows[-1:], list(before.values()))
                 if (picked := _picked(group, match[1].casefold(), COUNTS[match[2]]))
             ]
-            if len(before) > 1 and _is_place(match[3], case):
+            if choices and len(before) > 1 and _is_place(match[3], case):
                 yield choices
 
 

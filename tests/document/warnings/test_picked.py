@@ -107,3 +107,7 @@ def test_a_corner_of_a_surveyed_area_is_not_gone_to(
     warnings = document([grid, *tasks], command=command)["warnings"]
     asked = [one for one in warnings if "no words of the command" in one["text"]]
     assert len(asked) == count
+
+
+def test_an_ordinal_beyond_the_places_picks_none() -> None:
+    assert said("Go to 20,0 and 40,0. Skip the fourth. Hold at the last one.", to(40), hold()) == []
