@@ -54,7 +54,7 @@ def _plan(o: Options) -> PlanDocument:
     from planner_ft.document.warnings.asked import other_language
     from planner_ft.planning.locations import parse_locations, read_area, read_places
     from planner_ft.planning.planner import Planner, check_command, read_command
-    from planner_ft.planning.settings import PlanSettings
+    from planner_ft.planning.settings import PlanSettings, untrained
 
     origin = parse_origin(o.origin) if o.origin is not None else None
     locations = parse_locations(o.locate or [])
@@ -72,6 +72,8 @@ def _plan(o: Options) -> PlanDocument:
             show(doubt, error=True)
         for question in check(text, planner.vocabulary)["questions"]:
             show(f"the command does not say: {question}", error=True)
+        for doubt in untrained(planner.agents.agents, planner.vocabulary):
+            show(doubt, error=True)
         planned = planner.plan(text, locations, origin=origin, chart=chart)
         return build(planned, planner.vocabulary, profile)
 

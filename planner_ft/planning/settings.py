@@ -1,5 +1,6 @@
 """Which candidate, adapter and configuration each agent works with."""
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -98,6 +99,18 @@ def choose_agents(settings: PlanSettings, vocabulary: Vocabulary) -> dict[Level,
         raise PlannerError(f"{', '.join(unused)}: {problem}")
     levels = LEVELS[:1] if settings.mission_only else LEVELS
     return {level: _agent(level, settings, vocabulary) for level in levels}
+
+
+def untrained(agents: Mapping[Level, Agent], vocabulary: Vocabulary) -> Iterator[str]:
+    """A sentence per agent that nothing was trained for the vehicle: neither adapter nor base."""
+    for level, agent in agents.items():
+        name, what = agent.candidate.name, "steps" if level == "task" else "tasks"
+        if agent.adapter is None and not agent.candidate.knows(vocabulary):
+            yield (
+                f"the {level} agent ({name}, without adapter) was not trained for"
+                f" {vocabulary.name}: its {what} are a guess; train one with `plannerft train"
+                f" --level {level} --candidate {name} --vocabulary {vocabulary.source}`"
+            )
 
 
 def _agent(level: Level, settings: PlanSettings, vocabulary: Vocabulary) -> Agent:

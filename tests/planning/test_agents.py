@@ -6,6 +6,7 @@ import gc
 import shutil
 import weakref
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ from planner_ft.candidates.loading import load_model
 from planner_ft.decoding import engine as engine_module
 from planner_ft.decoding.configurations import STRENGTHS
 from planner_ft.planning.planner import Planner
-from planner_ft.planning.settings import Agent, PlanSettings, choose_agents
+from planner_ft.planning.settings import Agent, PlanSettings, choose_agents, untrained
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_json, write_json
 from planner_ft.vocabulary import load_vocabulary
@@ -249,3 +250,14 @@ def test_the_record_of_an_agent_names_weights_and_adapter_by_their_digests(here:
         after["weights_sha256"] == before["weights_sha256"]
         and after["adapter_sha256"] != before["adapter_sha256"]
     )
+
+
+def test_an_agent_that_was_never_trained_for_the_vehicle_is_named() -> None:
+    drone = load_vocabulary("inspection_drone")
+    agents = choose(vocabulary="inspection_drone", configuration="base+schema")
+    mission, task = untrained(agents, drone)
+    assert mission.startswith("the mission agent (") and "its tasks are a guess" in mission
+    assert "its steps are a guess; train one with `plannerft train --level task" in task
+    trained = {level: replace(one, adapter=Path("any")) for level, one in agents.items()}
+    assert not list(untrained(trained, drone))
+    assert not list(untrained(choose(configuration="base+schema"), load_vocabulary("usv")))
