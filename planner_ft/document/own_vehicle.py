@@ -50,23 +50,10 @@ where that is not done with the definition.
 
 
 LIMIT = "Limit"  # stands in NAME.missions.toml for the limits of a command, beside the tasks
-PATTERNS = [
-    "goto",
-    "hold",
-    "orbit",
-    "square",
-    "lawnmower",
-    "pass",
-    "line",
-    "approach",
-    "follow",
-    "drift",
-    "rotate",
-    "visual",
-    "sectors",
-    "sweep",
-    "arc",
-]
+PATTERNS = (
+    *("goto", "hold", "orbit", "square", "lawnmower", "pass", "line", "approach", "follow"),
+    *("drift", "rotate", "visual", "sectors", "sweep", "arc"),
+)
 """Patterns of tasks that mean something."""
 
 

@@ -212,10 +212,8 @@ def _sign(row: Row, index: int) -> int:
     (before, start, end), first = row.tokens[index - 1], row.tokens[index].start
     if before in ("minus", "negative"):
         return first - start
-    if before not in ("-", "−", "–"):
-        return 0
     free = _FREE.search(row.text, max(0, first - 8), first) or _FREE_TOO.match(row.text, first)
-    if not (end == first or free):
+    if before not in ("-", "−", "–") or not (end == first or free):
         return 0
     # A sign, and no hyphen: nothing before it, or no letter or digit, or the name of an axis.
     left = row.text[max(0, start - 2) : start].lower()
