@@ -154,10 +154,10 @@ def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
         turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
         few = is_number(count) and turns < count - 1
         return f"it turns {turns} times for {count:g} sectors" if few else None
-    points = _own_waypoints(task, known)
-    if task["title"] == known.transit and not points:
+    goals = (goal_of(step, known) for step in task["skill_sequence"])
+    if task["title"] == known.transit and not any(goals):
         return "none of its steps goes anywhere"
-    return shape_problem(task, points, known)
+    return shape_problem(task, _own_waypoints(task, known), known)
 
 
 # ---------------------------------------------------------------- boundaries, area, reach

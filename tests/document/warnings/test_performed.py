@@ -56,6 +56,14 @@ def test_a_transit_that_stays_is_named() -> None:
     assert len(told) == 1 and told[0].startswith(f"Task 1, {title}: n")
 
 
+def test_a_transit_that_ends_at_a_stand_off_is_gone() -> None:
+    crane = "Go to the crane at [40, 30]."
+    go = step("GoToXY", {"x": 40, "y": 30})
+    made = document([task("Transit", {"target_position": [40, 30]}, [go], crane)], command=crane)
+    assert made["tasks"][0]["added"]
+    assert "not-performed" not in [one["kind"] for one in made["warnings"]]
+
+
 def test_a_pass_that_is_shorter_than_its_length_is_named() -> None:
     given = {"side_id": "west", "length": 60, "distance": 5}
     whole, none = (
