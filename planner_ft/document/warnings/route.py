@@ -155,7 +155,8 @@ def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
         few = is_number(count) and turns < count - 1
         return f"it turns {turns} times for {count:g} sectors" if few else None
     goals = (goal_of(step, known) for step in task["skill_sequence"])
-    if task["title"] == known.transit and not any(goals):
+    could = any(skill.coordinates for skill in known.skills)
+    if task["title"] == known.transit and could and not any(goals):
         return "none of its steps goes anywhere"
     return shape_problem(task, _own_waypoints(task, known), known)
 
