@@ -1,13 +1,15 @@
 """Directions of the command that the plan has not: where a survey begins, how its lines lie."""
 
 import itertools
+import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.structures import ROUND
-from planner_ft.document.track import Leg, bearing, place_of
+from planner_ft.document.track import Leg, Point, bearing, place_of
 from planner_ft.document.warnings.case import Case, Warning, lost, skills_of
+from planner_ft.document.warnings.route import own_waypoints
 from planner_ft.document.warnings.said import CORRECTED
 from planner_ft.facts import Number, is_number, near
 from planner_ft.facts.places import read_bearings
@@ -16,6 +18,9 @@ from planner_ft.vocabulary import Entry
 ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
 TURNED = 28  # characters before a direction in which the command says what is turned there
 DIGIT = re.compile(r"\d")
+CORNER = "corner"
+LANE = 2  # waypoints of a lane
+SLIGHT = 0.01
 HALF_SIDE = 30.0  # degrees by which the first waypoint of a ring may lie off the side that is said
 
 
@@ -64,15 +69,37 @@ def _angles(case: Case) -> Iterator[float]:
 
 
 def laid_otherwise(case: Case) -> Iterator[Warning]:
-    """A corner or a direction of the lines of a survey that no task prompt has."""
+    """A corner or a direction of the lines of a survey that neither a task prompt nor the lines of
+    a task have.
+    """
     over = [one for one in case.tasks if case.vocabulary.task[one["title"]].pattern == "lawnmower"]
     if any(read_bearings(task["task_prompt"]) for task in over):
         return
     for clause in case.clauses if over else ():
-        words = "laid" if read_bearings(clause.text) else "across"
-        laid = case.words[words].search(clause.text)
+        ways = [one.value for one in read_bearings(clause.text)]
+        laid = case.words["laid" if ways else "across"].search(clause.text)
         if laid and case.wants(clause.start + laid.start()):
-            yield lost(clause.text.strip(" ,;."))
+            corner = laid[0].casefold() == CORNER
+            if not ways or not any(_lie_so(one, ways, corner, case) for one in over):
+                yield lost(clause.text.strip(" ,;."))
+
+
+def _lie_so(task: Entry, ways: Sequence[float], corner: bool, case: Case) -> bool:
+    """Whether the first lane of a task lies in all these directions, or begins on their side."""
+    points, middle = own_waypoints(task, case.vocabulary), place_of(task, case.vocabulary)
+    if len(points) < LANE or middle is None:
+        return False
+    if corner:
+        off = points[0][0] - middle[0], points[0][1] - middle[1]
+        return all(
+            one * way > -SLIGHT for at in ways for one, way in zip(off, _ahead(at), strict=True)
+        )
+    lane = bearing(*points[:LANE])
+    return all(abs(_ahead(way - lane)[0]) < SLIGHT for way in ways)
+
+
+def _ahead(way: float) -> Point:
+    return math.sin(math.radians(way)), math.cos(math.radians(way))
 
 
 def _first_leg(task: Entry, case: Case) -> Leg | None:

@@ -134,16 +134,16 @@ def _repeated(task: Entry, case: Case) -> str | None:
     """Whether a grid goes over its lanes again, of which its prompt says nothing."""
     if case.vocabulary.task[task["title"]].pattern != "lawnmower":
         return None
-    points = _own_waypoints(task, case.vocabulary)
+    points = own_waypoints(task, case.vocabulary)
     twice = len(points) - len(set(points))
     said = case.words["again"].search(task["task_prompt"])
     return None if said or not twice else f"it goes to {twice} of its waypoints again"
 
 
-def _own_waypoints(task: Entry, known: Vocabulary) -> list[Point]:
+def own_waypoints(task: Entry, known: Vocabulary) -> list[Point]:
     """The waypoints of a task, but for those that were added for clearance."""
     clearance = {mark["step"] for mark in task.get("added", ()) if mark["kind"] == "clearance"}
-    goals = [goal_of(step, known) for step in task["skill_sequence"]]
+    goals = [goal_of(step, known) for step in task["skill_sequence"] or ()]
     return [(goal[0], goal[1]) for at, goal in enumerate(goals) if goal and at not in clearance]
 
 
@@ -158,7 +158,7 @@ def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
     could = any(skill.coordinates for skill in known.skills)
     if task["title"] == known.transit and could and not any(goals):
         return "none of its steps goes anywhere"
-    return shape_problem(task, _own_waypoints(task, known), known)
+    return shape_problem(task, own_waypoints(task, known), known)
 
 
 # ---------------------------------------------------------------- boundaries, area, reach

@@ -26,6 +26,23 @@ def test_a_grid_that_leaves_half_of_its_area_is_named() -> None:
     assert "span 20 m by 10 m, and the area is 20 m by 20 m" in text
 
 
+@pytest.mark.parametrize(
+    ("words", "kept"),
+    [
+        ("lines 10 m apart north-south", True),
+        ("lines 10 m apart, N to S", True),
+        ("lines 10 m apart east-west", False),
+        ("start in the south-west corner", True),
+        ("start in the north-west corner", False),
+        ("start in the north-east corner", False),
+    ],
+)
+def test_lines_that_lie_as_the_command_says_are_not_lost(words: str, kept: bool) -> None:
+    grid = task("BathymetryGridSurvey", GRID, lanes([90, 100, 110], 40, 60))
+    made = document([grid], command=f"Map 20 by 20 m round 100,50, {words}.")
+    assert ("value-lost" not in {one["kind"] for one in made["warnings"]}) is kept
+
+
 def test_a_grid_that_is_run_twice_unasked_is_named() -> None:
     there_and_back = [*lanes([90, 100, 110], 40, 60), *lanes([110, 100, 90], 60, 40)]
     (text,) = found("BathymetryGridSurvey", GRID, there_and_back)

@@ -99,6 +99,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (f"{BOX} and never leave it. Go to 9,9.", [to(9, 9)], (FENCE,), None),
         (AREA, [to(100, 50), to(0, 200), to(200, 0), to(0, 0)], (), "limit-lost"),
         (PLATFORM, [to(100, 0)], (), "limit-lost"),
+        ("Go to 9,9; do not come within 15 of the mark.", [to(9, 9)], (), "limit-lost"),
+        ("Go to 9,9; do not come within 25 of it.", [to(9, 9)], (KEPT,), None),
         (
             "Go to [0, 90]. A wreck is on your track, keep clear of it.",
             [to(0, 90)],
