@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from planner_ft.document.clearance import KEEPS_CLEAR
+from planner_ft.document.language import ends_with
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, Point, bearing, place_of
 from planner_ft.document.warnings.case import Case, Warning, lost, skills_of
@@ -18,6 +19,7 @@ from planner_ft.vocabulary import Entry
 ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
 TURNED = 28  # characters before a direction in which the command says what is turned there
 DIGIT = re.compile(r"\d")
+COURSE = re.compile(r"[0-3]\d\d")  # "turn to 225"
 CORNER = "corner"
 LANE = 2  # waypoints of a lane
 SLIGHT = 0.01
@@ -44,6 +46,11 @@ def sides(case: Case) -> Iterator[Warning]:
             DIGIT.search(before, faced.end()) or ON_SIDE.match(case.text, one.end)
         )
         if turned and case.wants(one.start) and not _has(one, case):
+            yield case.lost(one.start, one.end)
+    for one in (one for one in case.numbers if COURSE.fullmatch(case.text, one.start, one.end)):
+        before = case.text[max(0, one.start - TURNED) : one.start]
+        faced = ends_with(case.words["faced"], before) and case.wants(one.start)
+        if faced and not any(near(one.value, angle) for angle in _angles(case)):
             yield case.lost(one.start, one.end)
     last = [one for one in found if along and ON_SIDE.match(case.text, one.end)]
     while last and case.wants(last[-1].start) and not _has(last[-1], case):

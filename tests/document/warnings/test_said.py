@@ -48,7 +48,7 @@ def kinds(command: str, *tasks: dict[str, Any], limits: tuple[str, ...] = ()) ->
 
 
 def look(sectors: int) -> dict[str, Any]:
-    turns = [step("RotateToHeading", {"yaw": 360 / sectors * at}) for at in range(sectors)]
+    turns = [step("RotateToHeading", {"heading": 360 / sectors * at}) for at in range(sectors)]
     return task("HorizontalPanorama", {"sectors": sectors}, turns)
 
 
@@ -230,6 +230,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
             (),
             "value-lost",
         ),
+        ("Hold, turn to 225 at 9,9.", [to(9, 9)], (), "value-lost"),
+        ("Turn to face 120 at 9,9.", [to(9, 9), look(3)], (), None),
         ("Go to the north-east corner at 9,9.", [to(9, 9)], (), None),
         ("Look round in 6 sectors. Correction: 10 sectors.", [look(6)], (), "value-lost"),
         ("Look round in 6 sectors. Correction: 10 sectors.", [look(10)], (), None),
