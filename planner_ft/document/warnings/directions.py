@@ -49,8 +49,8 @@ def sides(case: Case) -> Iterator[Warning]:
             yield case.lost(one.start, one.end)
     for one in (one for one in case.numbers if COURSE.fullmatch(case.text, one.start, one.end)):
         before = case.text[max(0, one.start - TURNED) : one.start]
-        faced = ends_with(case.words["faced"], before) and case.wants(one.start)
-        if faced and not any(near(one.value, angle) for angle in _angles(case)):
+        turned_to = ends_with(case.words["faced"], before) and case.wants(one.start)
+        if turned_to and not any(near(one.value, angle) for angle in _angles(case)):
             yield case.lost(one.start, one.end)
     last = [one for one in found if along and ON_SIDE.match(case.text, one.end)]
     while last and case.wants(last[-1].start) and not _has(last[-1], case):
