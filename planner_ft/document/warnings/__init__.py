@@ -95,7 +95,7 @@ CHECKS: tuple[Check, ...] = (
         repeats.repeats,
         repeats.each,
     ),
-    *(said.devices, directions.laid_otherwise),
+    *(said.devices, directions.laid_otherwise, directions.turned_otherwise),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(
         values.unread,

@@ -9,7 +9,7 @@ from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.language import ends_with
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, Point, bearing, place_of
-from planner_ft.document.warnings.case import Case, Warning, lost, skills_of
+from planner_ft.document.warnings.case import FULL, Case, Warning, lost, skills_of
 from planner_ft.document.warnings.route import own_waypoints
 from planner_ft.document.warnings.said import CORRECTED
 from planner_ft.facts import Number, is_number, near
@@ -20,6 +20,7 @@ ON_SIDE = re.compile(r"(?:ern)? (?:side|face|wall)\b", re.IGNORECASE)
 TURNED = 28  # characters before a direction in which the command says what is turned there
 DIGIT = re.compile(r"\d")
 COURSE = re.compile(r"[0-3]\d\d")  # "turn to 225"
+SENSES = "clockwise", "anticlockwise"
 CORNER = "corner"
 LANE = 2  # waypoints of a lane
 SLIGHT = 0.01
@@ -133,3 +134,43 @@ def begun_otherwise(case: Case) -> Iterator[Warning]:
         turns = [abs((one - side + 180) % 360 - 180) for one in named for side in sides]
         if turns and min(turns) > HALF_SIDE and not clause.corrected:
             yield lost(clause.text.strip(" ,;."))
+
+
+def turned_otherwise(case: Case) -> Iterator[Warning]:
+    """A sense of rotation in which no task of the plan turns or goes round."""
+    clauses = [clause for clause in case.clauses if not clause.corrected]
+    spans = {
+        end: (start, end, sense)  # "counter-clockwise" has both words
+        for sense in SENSES
+        for clause in clauses
+        for start, end in clause.spans(case.words[sense])
+    }
+    said = sorted(spans.values())
+    for (start, end, sense), after in itertools.zip_longest(said, said[1:]):
+        between = case.text[end : after[0]] if after else ""
+        replaced = len(between) <= CORRECTED and case.words["correction"].search(between)
+        if not replaced and not any(sense in _senses(task, case) for task in case.tasks):
+            yield case.lost(start, end)
+
+
+def _senses(task: Entry, case: Case) -> set[str]:
+    """The senses in which a task turns on the spot or goes round; of one without steps, those that
+    its prompt says.
+    """
+    if task["skill_sequence"] is None:
+        return {one for one in SENSES if case.words[one].search(task["task_prompt"])}
+    turns, faced = [-_area(own_waypoints(task, case.vocabulary))], list[float]()
+    for _role, skill in skills_of(task):
+        motion, given = case.vocabulary.motion.of(skill["name"]), skill["parameters"]
+        if motion and motion.kind == "turn-to":
+            faced.append(float(motion.value("heading", given) or 0))
+        elif motion and motion.kind in ("arc", "turn-by"):
+            turns.append(float(motion.value("angle", given) or FULL))
+    turns += [math.remainder(two - one, FULL) for one, two in itertools.pairwise(faced)]
+    return {SENSES[turn < 0] for turn in turns if turn}
+
+
+def _area(points: Sequence[Point]) -> float:
+    """Twice the area that points go round, positive anticlockwise."""
+    following = [*points[1:], *points[:1]]
+    return sum(x * v - y * u for (x, y), (u, v) in zip(points, following, strict=True))

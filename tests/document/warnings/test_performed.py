@@ -43,6 +43,54 @@ def test_lines_that_lie_as_the_command_says_are_not_lost(words: str, kept: bool)
     assert ("value-lost" not in {one["kind"] for one in made["warnings"]}) is kept
 
 
+RING = [(20.0, 0.0), (20.0, 20.0), (-20.0, 20.0), (-20.0, -20.0), (20.0, -20.0)]
+
+
+def go_round(points: list[tuple[float, float]]) -> dict[str, Any]:
+    steps = [step("GoToXY", {"x": 60 + x, "y": 40 + y}) for x, y in points]
+    return task("SurveyTarget", {"target_position": [60, 40], "radius": 20}, steps)
+
+
+def arc(angle: float | None, prompt: str = "Do it.") -> dict[str, Any]:
+    turn = step("ArcTurn", {"radius": 20, **({} if angle is None else {"delta_yaw": angle})})
+    given = {"center": [60, 40], "radius": 20, "arc": 360}
+    return task("PerformOrbit", given, None if prompt != "Do it." else [turn], prompt)
+
+
+def look(*headings: float) -> dict[str, Any]:
+    turns = [step("RotateToHeading", {"heading": heading}) for heading in headings]
+    return task("HorizontalPanorama", {"sectors": 4}, turns)
+
+
+@pytest.mark.parametrize(
+    ("words", "tasks", "kept"),
+    [
+        ("anticlockwise", [arc(360)], False),
+        ("anticlockwise", [arc(-360)], True),
+        ("Counter-clockwise", [arc(None)], False),
+        ("clockwise", [arc(None)], True),
+        ("clockwise", [go_round(RING)], False),
+        ("CCW", [go_round(RING)], True),
+        ("counter-clockwise", [arc(-360)], True),
+        ("clockwise", [go_round(RING[::-1])], True),
+        ("anticlockwise", [arc(None, "Circle it anticlockwise.")], True),
+        ("anticlockwise", [arc(None, "Circle it.")], False),
+        ("clockwise and then anticlockwise", [arc(360), arc(-360)], True),
+        ("clockwise and then anticlockwise", [arc(360), arc(360)], False),
+        ("clockwise, sorry, anticlockwise", [arc(-360)], True),
+        ("not clockwise", [arc(-360)], True),
+        ("anticlockwise", [look(0, 270, 180, 90)], True),
+        ("anticlockwise", [look(0, 90, 180, 270)], False),
+    ],
+)
+def test_a_sense_of_rotation_that_no_task_has_is_told(
+    words: str, tasks: list[dict[str, Any]], kept: bool
+) -> None:
+    made = document(tasks, command=f"Go round the mast at 60,40 {words}.")
+    lost = [one["id"].casefold() for one in made["warnings"] if one["kind"] == "value-lost"]
+    assert (not [one for one in lost if "clockwise" in one or "ccw" in one]) is kept
+
+
 def test_a_grid_that_is_run_twice_unasked_is_named() -> None:
     there_and_back = [*lanes([90, 100, 110], 40, 60), *lanes([110, 100, 90], 60, 40)]
     (text,) = found("BathymetryGridSurvey", GRID, there_and_back)
