@@ -72,8 +72,8 @@ server-test: install
 
 # How sure the embedded candidate's agents are, on the development sets; never on test data (task_unseen, data/mission/challenge).
 calibrate: install
-	$(BIN)/plannerft calibrate --level mission eval/challenge/mission*.jsonl
-	$(BIN)/plannerft calibrate --level task $(filter-out %unseen.jsonl,$(wildcard eval/challenge/task*.jsonl))
+	$(BIN)/plannerft calibrate --overwrite --level mission eval/challenge/mission*.jsonl
+	$(BIN)/plannerft calibrate --overwrite --level task $(filter-out %unseen.jsonl,$(wildcard eval/challenge/task*.jsonl))
 
 clean:
 	rm -rf build $(VENV)

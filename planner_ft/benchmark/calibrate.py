@@ -20,6 +20,7 @@ from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.terminal import Report
+from planner_ft.training.samples import Split, tests_within
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level
 
@@ -40,35 +41,40 @@ class Judged:
 
 
 def calibrate(
-    level: Level, data: Sequence[Path], out: Path, progress: Report = silent, **named: Any
+    level: Level,
+    data: Sequence[Path],
+    out: Path,
+    progress: Report = silent,
+    *,
+    overwrite: bool = False,
+    **named: Any,
 ) -> tuple[Path, dict[str, Any]]:
     """Calibrate an agent on files of validation data and write the calibration beside its adapter,
-    or in its candidate's folder; returns the file and the figures of `manifest`. `named` are those
-    of PlanSettings. Answers are kept in `out`, and those that are there are not made again. Raises
-    PlannerError.
+    or in its candidate's folder; returns the file and its manifest, which names under `tests` the
+    test sets among the data. `named` are those of PlanSettings. Answers are kept in `out`, and
+    those that are there are not made again. Raises PlannerError, also for a calibration that is
+    there already, without `overwrite`.
     """
     settings = PlanSettings(**named)
     vocabulary = load_vocabulary(settings.vocabulary)
     if not data:
         raise PlannerError("name at least one file of validation data")
-    for path in data:
-        load_bench_data(path, level, vocabulary, None)  # what is wrong with it is said by its name
+    read = [load_bench_data(path, level, vocabulary) for path in data]
+    _check_ids(read)
     agent = choose_agents(settings, vocabulary)[level]
+    if agent.calibration.is_file() and not overwrite:
+        there = "a calibration is there already; give --overwrite to replace it"
+        raise PlannerError(f"{agent.calibration}: {there}")
     held_for = agent.held_for(vocabulary)
     texts = [files.read_text(path).rstrip() for path in data]
     digest = files.sha256_text(files.compact_json([held_for, *map(files.sha256_file, data)]))[:12]
     folder = out / f"{agent.candidate.slug}-{level}-{digest}"
     joined = folder / "in" / DATA
     files.write_text(joined, "".join(f"{text}\n" for text in texts))
-    samples = load_bench_data(joined, level, vocabulary, None)
-    adapters = (str(agent.adapter),) if agent.adapter else ()
+    samples = load_bench_data(joined, level, vocabulary)
     run = BenchSettings(
-        level,
-        (settings.candidate,),
-        (agent.configuration.name,),
-        data=joined,
-        out=folder / "run",
-        adapters=adapters,
+        *(level, (settings.candidate,), (agent.configuration.name,), joined, folder / "run"),
+        adapters=(str(agent.adapter),) if agent.adapter else (),
         vocabulary=settings.vocabulary,
         device=settings.device,
         quantization=agent.quantization,
@@ -78,13 +84,14 @@ def calibrate(
     run_bench(run, progress)
     (key,) = files.read_json(run.folder / RUN)["keys"].values()
     lines = records_by_key(run.folder / PREDICTIONS).get(key, {})
-    calibration = fitted(level, samples, lines, vocabulary)
+    calibration = fitted(level, samples, lines, vocabulary, ", ".join(map(str, data)))
     manifest = build_manifest(
         "calibrate",
         seed=None,
         configuration={"level": level, "features": dict.fromkeys(KINDS, FEATURES)},
         inputs={str(path): path for path in data},
         agent=held_for,
+        tests=test_sets(read, vocabulary),
         **calibration.manifest,
     )
     path = agent.calibration
@@ -92,22 +99,48 @@ def calibrate(
     return path, manifest
 
 
+def _check_ids(read: Sequence[BenchData]) -> None:
+    """Raise PlannerError for an id that two files hold."""
+    first: dict[str, Path] = {}
+    for path, one in ((data.path, one.id) for data in read for one in data.samples):
+        if one in first:
+            found = f"id {one!r} stands in {first[one]} already; leave one of them out"
+            raise PlannerError(f"{path}: {found}")
+        first[one] = path
+
+
+def test_sets(read: Sequence[BenchData], vocabulary: Vocabulary) -> dict[str, str]:
+    """The known test sets whose inputs are among the data, and how many: "25 of 25"."""
+    found: dict[str, str] = {}
+    for data in read:
+        records = [one.record for one in data.samples]
+        found |= tests_within([Split(data.path, data.level, vocabulary, records, data.sha256)])
+    # The challenge sets of eval are for development but for the unseen ones.
+    development = {path for path in found if Path(path).match("eval/challenge/*.jsonl")}
+    return {path: found[path] for path in found if path not in development or "unseen" in path}
+
+
 def fitted(
-    level: Level, data: BenchData, lines: dict[str, dict[str, Any]], vocabulary: Vocabulary
+    level: Level,
+    data: BenchData,
+    lines: dict[str, dict[str, Any]],
+    vocabulary: Vocabulary,
+    named: str = "",
 ) -> Calibration:
     """The curves of predictions by sample id; the manifest has the figures of plans that were not
     fitted on, out of FOLDS folds that no phrasing family crosses. Raises PlannerError where too few
-    answers have log-probabilities.
+    answers have log-probabilities; errors name the data as it was `named`.
     """
+    named = named or str(data.path)
     judged = [one for sample in data.samples for one in judge(level, sample, lines, vocabulary)]
     of_kind = {kind: [one for one in judged if one.part.kind == kind] for kind in KINDS}
     if len(of_kind["plan"]) < LEAST:
         known = f"{len(of_kind['plan'])} of {len(data.samples)} answers have log-probabilities"
         way = f"at least {LEAST} are needed: give more data, or another candidate"
-        raise PlannerError(f"{data.path}: {known}; {way}")
+        raise PlannerError(f"{named}: {known}; {way}")
     if lacking := [kind for kind in KINDS if not of_kind[kind]]:
         known = f"no answer has a part of the kind {lacking[0]}, so that nothing can be calibrated"
-        raise PlannerError(f"{data.path}: {known}; give more data, or a candidate that is trained")
+        raise PlannerError(f"{named}: {known}; give more data, or a candidate that is trained")
     curves = {kind: _curve(found) for kind, found in of_kind.items()}
     figures = {kind: _held_out(found) for kind, found in of_kind.items()}
     return Calibration(level, curves, {"n": len(of_kind["plan"]), "held_out": figures})

@@ -166,7 +166,7 @@ def calibrate(o: Options) -> None:
 
     level = check_level(o.level)
     named = {f"{level}_configuration": o.configuration, f"{level}_adapter": o.adapter}
-    named |= o.take("candidate", "vocabulary", "device", "quantization")
+    named |= o.take("candidate", "vocabulary", "device", "quantization", "overwrite")
     with alone(o.out, "--out", "a calibration"), interruptible() as report:
         path, manifest = run(level, o.data, o.out, report, **named)
     for kind, found in manifest["held_out"].items():
@@ -174,3 +174,6 @@ def calibrate(o: Options) -> None:
         area = f"area under risk-coverage {found['aurc']:.4f}, random {found['aurc_random']:.4f}"
         show(f"{right}; calibration error {found['ece']:.3f}; {area}")
     show(f"{path}: how sure the {level} agent is, of these weights")
+    for tests, count in manifest["tests"].items():
+        worthless = "figures that are measured on them are worthless; calibrate on other data"
+        show(f"warning: {count} inputs of {tests} were calibrated on: {worthless}", error=True)

@@ -117,11 +117,11 @@ def read_calibration(path: Path, agent: Mapping[str, Any]) -> tuple[Calibration 
         found = Calibration(value["level"], curves, value["manifest"])
         same = all(found.manifest["agent"].get(key) == agent.get(key) for key in AGENT)
     except (AttributeError, KeyError, TypeError, ValueError):
-        way = "make it again with plannerft calibrate"
+        way = "make it again with plannerft calibrate --overwrite"
         raise PlannerError(f"{path}: is no calibration of this version; {way}") from None
     if not same:
         problem = "it was calibrated with other weights or settings"
-        return None, f"{problem}; plannerft calibrate does it again"
+        return None, f"{problem}; plannerft calibrate --overwrite does it again"
     return found, ""
 
 

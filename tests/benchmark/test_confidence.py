@@ -5,21 +5,28 @@ from __future__ import annotations
 import json
 import math
 import random
+import shutil
 from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.testing import CliRunner
 
 from planner_ft.benchmark import calibrate
 from planner_ft.benchmark.calibrate import LEAST, fitted
 from planner_ft.benchmark.figures import confidence_figures
+from planner_ft.benchmark.folder import PREDICTIONS, RUN
 from planner_ft.benchmark.samples import BenchData, Sample
 from planner_ft.benchmark.scoring import score_sample
+from planner_ft.benchmark.settings import BenchSettings
+from planner_ft.cli.app import app
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import compact_json
+from planner_ft.support.files import compact_json, read_json, read_jsonl, write_json, write_jsonl
 from planner_ft.vocabulary import load_vocabulary
 
 USV = load_vocabulary("usv")
+ROOT = Path(__file__).parents[2]
+CURATED = ROOT / "data" / "mission"
 
 
 def plan(radius: int) -> dict[str, Any]:
@@ -169,3 +176,61 @@ def test_without_calibration_the_probability_of_the_tokens_counts() -> None:
         for logprob in (-0.05, -1.2)
     )
     assert unsure == pytest.approx(0.3006, abs=1e-3) and sure > 0.9
+
+
+@pytest.fixture
+def adapter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An adapter that is not calibrated yet, and answers every sample rightly."""
+
+    def run_bench(run: BenchSettings, _progress: object) -> None:
+        lines = []
+        for one in read_jsonl(run.data or ""):
+            text = compact_json(one["expected"])
+            known = {"id": one["id"], "output": text, "parsed": one["expected"]}
+            lines.append({"key": "k", **known, "logprobs": [[len(text), -0.1, 7.0]]})
+        write_jsonl(run.folder / PREDICTIONS, lines)
+        write_json(run.folder / RUN, {"keys": {"embedded lora+schema": "k"}})
+
+    monkeypatch.setattr(calibrate, "run_bench", run_bench)
+    folder, left_out = tmp_path / "adapter", shutil.ignore_patterns("confidence*")
+    shutil.copytree(ROOT / "adapters" / "embedded" / "mission", folder, ignore=left_out)
+    return folder
+
+
+def calibrated(adapter: Path, *words: str) -> tuple[int, str]:
+    """Exit status and errors of the command."""
+    how = ["--adapter", str(adapter), "--configuration", "lora+schema"]
+    how += ["--out", str(adapter.parent / "out")]
+    result = CliRunner().invoke(app, ["calibrate", *words, *how])
+    return result.exit_code, str(result.exception or result.stderr)
+
+
+def test_test_data_is_named_and_development_data_is_not(adapter: Path, tmp_path: Path) -> None:
+    write_jsonl(tmp_path / "mine.jsonl", read_jsonl(CURATED / "test.jsonl"))
+    status, said = calibrated(adapter, str(tmp_path / "mine.jsonl"))
+    assert status == 0 and "warning: 25 of 25 inputs of" in said and "test.jsonl were" in said
+    tests = read_json(adapter / "confidence-mission-lora+schema.json")["manifest"]["tests"]
+    assert list(tests.values()) == ["25 of 25"]
+    for of in (CURATED / "validation.jsonl", ROOT / "eval" / "challenge" / "mission.jsonl"):
+        assert calibrated(adapter, str(of), "--overwrite") == (0, "")
+
+
+def test_a_calibration_is_not_replaced_unasked(adapter: Path) -> None:
+    data, path = str(CURATED / "validation.jsonl"), adapter / "confidence-mission-lora+schema.json"
+    path.write_text("{}")
+    status, said = calibrated(adapter, data)
+    assert (
+        status and said == f"{path}: a calibration is there already; give --overwrite to replace it"
+    )
+    assert calibrated(adapter, data, "--overwrite") == (0, "")
+
+
+def test_errors_name_the_files_that_were_given(adapter: Path, tmp_path: Path) -> None:
+    few, more = tmp_path / "few.jsonl", tmp_path / "more.jsonl"
+    records = read_jsonl(CURATED / "validation.jsonl")
+    write_jsonl(few, records[:2])
+    write_jsonl(more, records[2:4])
+    assert f"{few}, {more}: 4 of 4 answers" in calibrated(adapter, str(few), str(more))[1]
+    write_jsonl(more, records[1:3])
+    found = f"{more}: id '{records[1]['id']}' stands in {few} already; leave one of them out"
+    assert calibrated(adapter, str(few), str(more))[1] == found

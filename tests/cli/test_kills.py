@@ -40,7 +40,7 @@ COMMANDS = {
     "bench of field cases": "bench --field CASES --configurations lora+schema --out OUT/run --resume",
     "bench of both agents": "bench --level both --data DEMANDS --configurations lora+schema"
     " --out OUT/run --resume",
-    "calibrate": "calibrate DATA --adapter OUT/adapter --configuration lora+schema --out OUT/run",
+    "calibrate": "calibrate DATA --adapter OUT/adapter --configuration lora+schema --out OUT/run --overwrite",
     "simulate": "simulate PLAN --runs 2 --mcap 0 --out OUT/simulation --overwrite",
     "export": f"export --merge --candidate {STANDIN} --adapter ADAPTER --checks 1 --check-data DATA"
     " --out OUT/model --overwrite",
