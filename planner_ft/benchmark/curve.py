@@ -37,6 +37,10 @@ BEGUN, RUNS, RESULT = "curve.json", "runs", "learning_curve.json"
 TESTED = 4  # A benchmarked sample takes about as long as training on this many
 SEED = 0  # of the bootstrap
 SHOWN = ("f1", "exact_sequence", "whole_plan")
+STANDIN = (
+    "is a tiny, randomly initialised model: the curve says nothing about the real candidate, nor"
+    " about how many samples are worth writing."
+)
 SAMPLES: dict[Level, str] = {"mission": "commands", "task": "task inputs"}
 
 
@@ -105,7 +109,8 @@ def prepare(
         problems.append(f"--seeds {seeds}: must be at least 1")
     if problems:
         raise refusal("the configuration has", problems)
-    path = data or default_data(request.level, vocabulary)
+    beside = request.train_file.with_name("test.jsonl")
+    path = data or (beside if beside.is_file() else default_data(request.level, vocabulary))
     tests = load_bench_data(path, request.level, vocabulary, limit)
     return Curve(request, train, tests, chosen, seeds, strength, out, limit, settings or {})
 
@@ -245,9 +250,12 @@ def write_curve(curve: Curve) -> list[Point]:
     heads = (*(METRIC[name].title for name in OF_GROUPS), "F1 by seed")
     table, said = Table(what.capitalize(), heads, rows), answer(found, comparisons, what)
     how = f"95 % intervals over the answers of {curve.seeds} adapters of each size to the test set."
+    if request.candidate.is_standin:
+        how += f"\n\n{request.candidate.row_name} {STANDIN}"
     files.write_text(curve.out / "table.md", f"{markdown_table(table)}\n{said}\n\n{how}\n")
     files.write_text(curve.out / "table.csv", csv_table(table))
     record: dict[str, Any] = {"level": request.level, "data": curve.data.summary()}
+    record["is_standin"] = request.candidate.is_standin
     record |= {"answer": said, "points": [point.to_json() for point in found]}
     record["comparisons"] = [one.to_json() for pairs in comparisons for one in pairs]
     inputs: dict[str, Path | str] = {"training": request.train_file, "data": curve.data.path}

@@ -152,6 +152,14 @@ def test_without_sizes_they_double_up_to_all(plan: Callable[..., Curve], data: P
     assert plan(None).sizes == (0, 8, 16, 32, 64, 125)
 
 
+def test_the_test_set_of_the_data_folder_is_tested_on(
+    plan: Callable[..., Curve], data: Path
+) -> None:
+    assert plan(data=None).data.path == data / "test.jsonl"
+    (data / "test.jsonl").unlink()
+    assert plan(data=None).data.path == DRONE.data / "mission" / "test.jsonl"
+
+
 @pytest.mark.parametrize("step", range(1, 10))
 def test_after_ctrl_c_in_any_phase_the_rest_is_run(
     plan: Callable[..., Curve], runs: Runs, step: int
@@ -228,6 +236,7 @@ def test_table_figure_and_manifest(plan: Callable[..., Curve], runs: Runs) -> No
     assert record["manifest"]["configuration"]["sizes"] == [0, 2, 4]
     assert set(record["manifest"]["inputs"]) == {"training", "validation", "data"}
     table = (curve.out / "table.md").read_text()
+    assert record["is_standin"] and "is a tiny, randomly initialised model" in table
     assert "| 2 | 0.50 [" in table and record["answer"] in table
     drawn = write_figure(points, "commands", curve.out)
     assert [path.suffix for path in drawn] == [".png", ".svg"]
