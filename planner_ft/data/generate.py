@@ -2,6 +2,7 @@
 
 import gc
 import itertools
+import shlex
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -134,7 +135,8 @@ def _make(
     if source and (source / ABOUT).is_file():
         labelling = files.read_text(source / ABOUT).strip()
     about = level, splits, vocabulary, leakage, seed, labelling
-    made.texts["README.md"] = dataset_card(*about, chat=messages is not None)
+    command, told = _command(name, settings), messages is not None
+    made.texts["README.md"] = dataset_card(*about, command=command, chat=told)
     for split, records in splits.items():
         if messages is None:
             break
@@ -146,7 +148,7 @@ def _make(
         "counts": made.counts,
         "vocabulary": vocabulary.name,
         "vocabulary_sha256": vocabulary.sha256,
-        "chat": messages is not None,
+        "chat": told,
     }
     if name == "task":
         configuration["phrases_sha256"] = files.sha256_text(files.compact_json(vocabulary.phrases))
@@ -157,6 +159,18 @@ def _make(
         inputs = {split: source / f"{split}.jsonl" for split in splits}
     made.manifest = build_manifest("data", seed=seed, configuration=configuration, inputs=inputs)
     return made
+
+
+def _command(name: str, settings: GenerationSettings) -> str:
+    """The command that makes a set, with all options given that its files depend on."""
+    flags = ["synthetic"] if name == SYNTHETIC else ["train", "validation", "test"]
+    flags += ["vocabulary", "source" if name == "mission" else "seed"]
+    words = ["plannerft", "gen-data", "--level", "task" if name == "task" else "mission"]
+    for flag in flags:
+        value = getattr(settings, flag)
+        if value != getattr(GenerationSettings, flag):
+            words += [f"--{flag}", str(value)]
+    return shlex.join([*words, *(["--chat"] if settings.chat else [])])
 
 
 def _chat(id_: str, chat: list[dict[str, str]]) -> str:

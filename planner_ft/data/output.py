@@ -142,10 +142,12 @@ def dataset_card(
     seed: int | None,
     labelling: str = "",
     *,
+    command: str,
     chat: bool = False,
 ) -> str:
     """The card's text: front matter, counts, coverage, lengths, diversity, leakage. Without a
-    leakage report it is that of synthetic missions; `chat` names the chat form, too.
+    leakage report it is that of synthetic missions; `command` is what makes the set; `chat` names
+    the chat form, too.
     """
     import jinja2
 
@@ -158,6 +160,7 @@ def dataset_card(
         level=level,
         labelling=labelling,
         vocabulary=vocabulary,
+        command=command,
         chat=chat,
         seed=seed,
         size=next((name for limit, name in SIZES if len(records) < limit), "n>1M"),

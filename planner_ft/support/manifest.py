@@ -5,6 +5,7 @@ import functools
 import importlib.metadata
 import os
 import platform
+import shlex
 import subprocess
 import sys
 from datetime import UTC, datetime
@@ -60,6 +61,13 @@ def hardware() -> dict[str, Any]:
     }
 
 
+def _command() -> str:
+    """The command line of this process, as a shell reads it."""
+    program = Path(sys.argv[0])
+    ours = program.parts[-2:] == ("planner_ft", "__main__.py")  # python -m planner_ft
+    return shlex.join(["plannerft" if ours else program.name, *sys.argv[1:]])
+
+
 def build_manifest(
     kind: str,
     *,
@@ -82,6 +90,6 @@ def build_manifest(
         "versions": {"python": sys.version.split()[0], **library_versions()},
         **source_commit(),
         "hardware": hardware(),
-        "command": " ".join([Path(sys.argv[0]).name, *sys.argv[1:]]),
+        "command": _command(),
         **more,
     }

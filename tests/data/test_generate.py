@@ -355,6 +355,20 @@ def test_a_synthetic_mission_set_lies_beside_the_curated_one(tmp_path: Path) -> 
     assert not curated & {json.loads(line)["prompt"] for line in lines}
 
 
+def test_a_card_names_the_options_that_its_set_was_made_with(tmp_path: Path, source: Path) -> None:
+    how = {"seed": 3, "synthetic": 4, "source": source, **SMALL}
+    generate(GenerationSettings(out=tmp_path / "data", chat=True, **how), messages=chat_messages)
+    named = {
+        "mission": f"--train 20 --validation 5 --test 6 --source {source}",
+        "task": "--train 20 --validation 5 --test 6 --seed 3",
+        "mission-synthetic": "--synthetic 4 --seed 3",
+    }
+    for name, options in named.items():
+        card = (tmp_path / "data" / name / "README.md").read_text(encoding="utf-8")
+        level = name.removesuffix("-synthetic")
+        assert f"Written by `plannerft gen-data --level {level} {options} --chat`" in card
+
+
 def test_a_synthetic_set_belongs_to_the_mission_level(tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="--synthetic 5: it belongs to the mission level"):
         GenerationSettings(level="task", out=tmp_path, synthetic=5)
