@@ -4,6 +4,7 @@ The card (card.md.j2) is a README.md in the Hugging Face form, so that `load_dat
 every split, with the figures that describe the set.
 """
 
+import contextlib
 import itertools
 import json
 from collections import Counter
@@ -50,6 +51,12 @@ class Generated:
     seconds: dict[str, float] = field(default_factory=dict)
     written: bool = False
 
+    @property
+    def stale(self) -> list[str]:
+        """Files of a former run's chat form, which this one does not make."""
+        chats = (f"chat/{split}.jsonl" for split in self.counts)
+        return [one for one in chats if one not in self.texts and (self.folder / one).exists()]
+
 
 def write_sets(sets: Sequence[Generated], *, overwrite: bool) -> None:
     """Write the sets that are not up to date.
@@ -89,8 +96,9 @@ def _pending(made: Generated) -> tuple[dict[str, str], list[str]]:
                 raise PlannerError(
                     f"{path} is the curated source and would be cut; give another --out"
                 )
-    if not texts and _present(made.folder / MANIFEST) is None:
-        texts[MANIFEST] = ""
+    replaced += made.stale
+    if replaced or (not texts and _present(made.folder / MANIFEST) is None):
+        texts.setdefault(MANIFEST, "")
     return texts, replaced
 
 
@@ -126,6 +134,10 @@ def _write(made: Generated, texts: dict[str, str]) -> None:
         for name in names[:-1]:
             files.write_text(staged / name, texts[name])
         files.write_json(staged / MANIFEST, {**made.manifest, "outputs": digests})
+        for name in made.stale:
+            (made.folder / name).unlink()
+        with contextlib.suppress(OSError):  # not there, or holds other files
+            (made.folder / "chat").rmdir()
         for name in names:
             (made.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (staged / name).replace(made.folder / name)

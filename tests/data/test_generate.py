@@ -139,6 +139,21 @@ def test_the_chat_form_holds_the_answer_that_we_train_on(tmp_path: Path) -> None
         assert rows[0]["completion"] == chat["completion"]
 
 
+def test_the_chat_form_of_a_former_run_is_not_left(tmp_path: Path) -> None:
+    how = {"level": "task", "out": tmp_path, **SMALL}
+    generate(GenerationSettings(chat=True, **how), messages=chat_messages)
+    with pytest.raises(PlannerError, match="--overwrite to replace it"):
+        generate(GenerationSettings(seed=1, **how))
+    assert (tmp_path / "task" / "chat" / "train.jsonl").is_file()
+    generate(GenerationSettings(seed=1, overwrite=True, **how))
+    assert not (tmp_path / "task" / "chat").exists()
+    # Others' files stay, and what an earlier version left is removed.
+    write_jsonl(tmp_path / "task" / "chat" / "train.jsonl", [{}])
+    write_jsonl(tmp_path / "task" / "chat" / "mine.jsonl", [{}])
+    generate(GenerationSettings(seed=1, overwrite=True, **how))
+    assert [one.name for one in (tmp_path / "task" / "chat").iterdir()] == ["mine.jsonl"]
+
+
 def test_every_split_loads_with_datasets_at_once(tmp_path: Path) -> None:
     settings = GenerationSettings(
         out=tmp_path, **{**SMALL, "train": 80}
