@@ -134,6 +134,10 @@ def _candidates(settings: BenchSettings, vocabulary: Vocabulary) -> list[Candida
             problem = f"two different folders are named {candidate.name}; rename one of them"
             raise PlannerError(f"--candidates: {problem}")
         loading.require_folder(candidate)
+        if candidate.merged not in (None, settings.level):
+            other = f"has the adapter of the {candidate.merged} level folded in"
+            way = f"give --level {candidate.merged} or another candidate"
+            raise PlannerError(f"--candidates {text}: {other}; {way}")
     return list(found.values())
 
 
@@ -210,6 +214,7 @@ def _job(
         *(candidate.name, configuration.name, candidate.row_name, candidate.published),
         is_standin=candidate.is_standin,
         pretrained=candidate.knows(vocabulary),
+        merged=candidate.merged is not None,
         with_vocabulary=adapters.prompt_has_vocabulary(candidate, vocabulary, used),
         adapter=str(used) if used else None,
         seen=seen if used else 0,

@@ -32,8 +32,8 @@ class System:
     `label` is its name in tables, `published` its name in the published tables. `with_vocabulary`
     says whether the prompt held the vocabulary, `pretrained` whether the candidate was pretrained
     on plans of this vocabulary; both are None or False for predictions of unknown origin. `seen`
-    are the samples that its adapter was trained on. `repeat` numbers the answers of a system that
-    was asked several times; a row is of all of them.
+    are the samples that its adapter was trained on; a `merged` model has one folded in. `repeat`
+    numbers the answers of a system that was asked several times; a row is of all of them.
     """
 
     candidate: str
@@ -42,6 +42,7 @@ class System:
     published: str | None = None
     is_standin: bool = False
     pretrained: bool = False
+    merged: bool = False
     with_vocabulary: bool | None = None
     adapter: str | None = None
     seen: int = 0
@@ -56,7 +57,10 @@ class System:
     @property
     def heading(self) -> str:
         """The configuration as the published tables write it."""
-        return NOTHING if self.is_baseline else heading(self.configuration)
+        configuration = self.configuration
+        if self.merged:  # the base of such a folder is no base alone
+            configuration = configuration.replace("base", "merged", 1)
+        return NOTHING if self.is_baseline else heading(configuration)
 
     @property
     def name(self) -> str:

@@ -14,7 +14,7 @@ from planner_ft.candidates.location import Source, find_folder, read_config
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_text
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.plans import Level
+from planner_ft.vocabulary.plans import LEVELS, Level
 
 Chat = Literal["llama3", "chatml", "plain", "other"]
 Quantization = Literal["nf4", "none"]
@@ -111,6 +111,8 @@ class Candidate:
     folder: Path | None = None
     source: Source | None = None
     is_standin: bool = False
+    merged: Level | None = None
+    """The level whose adapter is folded in (`plannerft export --merge`)."""
 
     @property
     def parameters(self) -> int | None:
@@ -183,7 +185,8 @@ def resolve_candidate(name_or_path: str | Path) -> Candidate:
     if text and path.is_dir():
         folder = path.resolve()
         vocabulary = read_config(folder).get(VOCABULARY_KEY)
-        return _at(Candidate(name=folder.name, vocabulary=vocabulary), folder, "path")
+        found = Candidate(name=folder.name, vocabulary=vocabulary, merged=_merged(folder))
+        return _at(found, folder, "path")
     if text.startswith((".", "/", "~")):
         way_out = "give one with config.json, tokenizer and weights, or a name that"
         raise PlannerError(f"{text}: no such folder; {way_out} `plannerft candidates` lists")
@@ -241,6 +244,14 @@ def _at(candidate: Candidate, folder: Path, source: Source | None) -> Candidate:
     dimensions = Dimensions.from_config(config) or candidate.dimensions
     here = replace(candidate, folder=folder, source=source, chat=_chat(folder))
     return replace(here, dimensions=dimensions, is_standin=bool(config.get(STANDIN_KEY)))
+
+
+def _merged(folder: Path) -> Level | None:
+    """The level of a merged model, by the manifest of its export."""
+    manifest = read_config(folder, "manifest.json")
+    level = manifest.get("level")
+    merged = manifest.get("kind") == "export" and manifest.get("adapter")
+    return level if merged and level in LEVELS else None
 
 
 def _chat(folder: Path) -> Chat:

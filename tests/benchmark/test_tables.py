@@ -92,6 +92,13 @@ def test_no_table_is_wider_than_a_page() -> None:
     assert max(line.count("|") for line in lines) <= 12
 
 
+def test_a_merged_model_is_no_base() -> None:
+    text = markdown(results(System("merged", "base", "my model", pretrained=True, merged=True)))
+    assert rows_of(text)[2][:2] == ["my model", "merged"]
+    assert "my model has an adapter of the mission level folded in" in text
+    assert "its Base figures" not in text
+
+
 def test_stand_ins_are_marked_and_not_compared_with_published_figures() -> None:
     for text in render_tables(results(STANDIN)).values():
         assert "Qwen2.5-3B (stand-in)" in text

@@ -14,6 +14,8 @@ import jsonschema
 import pytest
 import torch
 
+from planner_ft.benchmark.plan import make_plan
+from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.candidates import resolve_candidate
 from planner_ft.candidates.registry import VOCABULARY_KEY
 from planner_ft.cli import main
@@ -75,6 +77,17 @@ def test_an_exported_model_is_not_told_the_vocabulary_again(
     assert VOCABULARY_KEY not in json.loads(
         (resolve_candidate(LLAMA).folder / "config.json").read_text()
     )  # type: ignore[operator]
+
+
+def test_a_merged_model_is_benched_as_one_and_at_its_level_alone(
+    exported: Callable[..., Exported],
+) -> None:
+    folder = str(exported().folder)
+    how = {"device": "cpu", "quantization": "none", "limit": 2}
+    (job,) = make_plan(BenchSettings("mission", (folder,), ("base+schema",), **how)).jobs
+    assert job.system.merged and job.system.heading == "merged+schema"
+    with pytest.raises(PlannerError, match="mission level folded in; give --level mission or"):
+        make_plan(BenchSettings("task", (folder,), ("base",), **how))
 
 
 def test_llama_prompts_hold_the_date_of_training_whoever_renders_them(
