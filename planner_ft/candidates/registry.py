@@ -24,6 +24,7 @@ HUB_ID = re.compile(r"(?P<repo>[A-Za-z0-9][\w.-]*/[A-Za-z0-9][\w.-]*)(@(?P<revis
 STANDIN_KEY = "planner_ft_standin"
 """Marks the config.json of a stand-in, so that its results never pass for the real candidate's."""
 TAGS = {"peft": ("lora", "qlora"), "transformers": ()}
+OTHERS = "a local folder (./folder) or a hub id"
 VOCABULARY_KEY = "planner_ft_vocabulary"
 """In the config.json of an exported model: the bundled vocabulary that it has learned."""
 
@@ -218,10 +219,11 @@ def model_metadata(manifest: dict[str, Any], library: str) -> str:
 def _unknown(text: str) -> str:
     by_lower = {candidate.name.lower(): candidate.name for candidate in _registered()}
     close = difflib.get_close_matches(text.lower(), by_lower, n=3, cutoff=0.5)
-    hint = f"there are {', '.join(by_lower.values())}"
     if close:
-        hint = f"did you mean {' or '.join(by_lower[name] for name in close)}?"
-    return f"unknown candidate {text!r}: {hint} A local folder (./folder) or a hub id works, too"
+        names = " or ".join(by_lower[name] for name in close)
+        return f"unknown candidate {text!r}: did you mean {names}, or {OTHERS}?"
+    names = ", ".join(by_lower.values())
+    return f"unknown candidate {text!r}: there are {names}; {OTHERS} works, too"
 
 
 @functools.cache

@@ -68,11 +68,11 @@ def test_a_candidate_is_found_by_name_published_row_and_hub_id(name: str) -> Non
 def test_an_unknown_name_gets_close_matches() -> None:
     with pytest.raises(
         PlannerError,
-        match=r"unknown candidate 'Llama-3.2-3B-Instuct': did you mean Llama-3.2-3B-Instruct",
+        match=r"unknown candidate 'Llama-3.2-3B-Instuct': did you mean Llama-3.2-3B-Instruct or .*, or a local folder .* or a hub id\?$",
     ):
         resolve_candidate("Llama-3.2-3B-Instuct")
     with pytest.raises(
-        PlannerError, match=r"unknown candidate '': there are Llama-3.2-1B, .*embedded"
+        PlannerError, match=r"unknown candidate '': there are Llama-3.2-1B, .*embedded-reader; a local"
     ):
         resolve_candidate("")
 
