@@ -17,6 +17,7 @@ from planner_ft.cli.options import (
     resume_command,
     set_parameters,
     status,
+    typed,
 )
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
@@ -34,14 +35,33 @@ if TYPE_CHECKING:
 def add_settings(function: Callable[..., None], *without: str) -> None:
     """An option for every training setting `without` some: flags and settings cannot differ."""
     own = inspect.signature(function).parameters.values()
-    set_parameters(function, [*own, *(_option(name) for name in FIELDS if name not in without)])
+    names = [name for name in FIELDS if name not in without]
+    # Shown, the --no- forms would leave too little room for the names of options.
+    off = [_off(name) for name in names if kind_of(name)[0] is bool]
+    set_parameters(function, [*own, *map(_option, names), *off])
+
+
+def _off(name: str) -> inspect.Parameter:
+    """The flag against a setting that a recipe turns on."""
+    flag = typer.Option(typed([f"no_{name}"]), help=f"Without {typed([name])}.", hidden=True)
+    return inspect.Parameter(f"no_{name}", OPTION, default=False, annotation=Annotated[bool, flag])
+
+
+def _given(o: Options) -> dict[str, Any]:
+    """The settings that were given."""
+    values = {name: value for name, value in vars(o).items() if name in FIELDS}
+    values |= {name: False for name in values if getattr(o, f"no_{name}", False)}
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def _option(name: str) -> inspect.Parameter:
     (kind, choices), default, about = kind_of(name), default_text(name), ABOUT[name]
-    text = about["help"] + (f" Default: {default}." if default else "")
-    values = "|".join(choices) or None
-    shown = typer.Option(help=text, metavar=values, rich_help_panel=about["panel"])
+    # Not as a metavar, which would leave too little room for the names of options.
+    unnamed = choices if any(choice not in about["help"] for choice in choices) else ()
+    text = about["help"] + (f" One of {', '.join(unnamed)}." if unnamed else "")
+    text += f" Default: {default}." if default else ""
+    flags = (typed([name]),) if kind is bool else ()
+    shown = typer.Option(*flags, help=text, rich_help_panel=about["panel"])
     return inspect.Parameter(name, OPTION, default=None, annotation=Annotated[kind | None, shown])
 
 
@@ -52,7 +72,7 @@ def train(o: Options) -> None:
 
     ranks, rerun = join_ranks(), o.take("recipe", "overwrite", "resume")
     with ranks.one_voice():
-        request = build_request(o.take(*RUN_KEYS), o.take(*FIELDS), **rerun, ranks=ranks)
+        request = build_request(o.take(*RUN_KEYS), _given(o), **rerun, ranks=ranks)
     console = terminal(soft_wrap=True)
     if not (o.preview or o.preview_id):
         _train(request, console, ranks)
@@ -131,7 +151,7 @@ def learning_curve(o: Options) -> None:
     from planner_ft.report.pictures import write_figure
     from planner_ft.training.request import build_request
 
-    flags = {name: value for name, value in vars(o).items() if name in FIELDS and value is not None}
+    flags = _given(o)
     request = build_request(o.given(*NAMED), flags)
     how = o.seeds, o.strength, o.data, o.limit
     curve = prepare(request, o.out, _sizes(o.sizes), *how, flags)

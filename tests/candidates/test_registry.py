@@ -72,7 +72,8 @@ def test_an_unknown_name_gets_close_matches() -> None:
     ):
         resolve_candidate("Llama-3.2-3B-Instuct")
     with pytest.raises(
-        PlannerError, match=r"unknown candidate '': there are Llama-3.2-1B, .*embedded-reader; a local"
+        PlannerError,
+        match=r"unknown candidate '': there are Llama-3.2-1B, .*embedded-reader; a local",
     ):
         resolve_candidate("")
 

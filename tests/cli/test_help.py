@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 import planner_ft.cli
+from planner_ft.cli import train
 from planner_ft.cli.app import app
 
 TEXTS: dict[str, Any] = tomllib.loads(
@@ -50,8 +51,25 @@ def test_every_help_text_belongs_to_an_option() -> None:
 
 
 @pytest.mark.parametrize("command", sorted(options()))
-def test_help_is_shown(command: str) -> None:
-    """Help texts are rich markup, in which "[/...]" closes a tag."""
+def test_help_is_shown(command: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Help texts are rich markup, in which "[/...]" closes a tag; every name is whole."""
+    monkeypatch.setattr("typer.rich_utils.MAX_WIDTH", 80)
     result = CliRunner().invoke(app, [command.replace("_", "-"), "--help"])
     assert result.exit_code == 0, result.exception
     assert "Usage" in result.output
+    assert "…" not in result.output
+
+
+def test_a_setting_that_a_recipe_turns_on_is_turned_off(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "recipe.toml").write_text("keep_checkpoints = true\n")
+    seen: list[bool] = []
+    monkeypatch.setattr(
+        train, "_train", lambda request, *_: seen.append(request.settings.keep_checkpoints)
+    )
+    words = ["train", "--level", "mission", "--candidate", "embedded"]
+    words += ["--recipe", str(tmp_path / "recipe.toml")]
+    for flags in ([], ["--no-keep-checkpoints"], ["--keep-checkpoints"]):
+        assert CliRunner().invoke(app, [*words, *flags]).exit_code == 0
+    assert seen == [True, False, True]
