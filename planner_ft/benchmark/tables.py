@@ -21,6 +21,8 @@ from planner_ft.support.resources import memory_size
 from planner_ft.support.tables import NOTHING, Cell, Table, row
 
 SHOWN_PAIRS, SHOWN_IDS, SHOWN_OTHERS = 15, 3, 10
+LONGEST_NAME = 80
+"""Characters of a name that a model wrote."""
 F1 = (("", "f1", 1, 2),)
 COUNTED = {
     "substitutions": (("expected", "predicted"), ("Expected", "predicted"), "(nothing)"),
@@ -109,15 +111,19 @@ def _names(rows: Sequence[Row], by: str) -> Table:
     body = []
     for name in [*(name for name in ordered if support[name]), *extra]:
         cells = (_cells(of_row.get(name, {}), F1) for of_row in figures)
-        body.append(row(name, str(support[name]), *itertools.chain(*cells)))
+        body.append(row(_name(name), str(support[name]), *itertools.chain(*cells)))
     return Table(f"F1 per {by} ↑", ("expected", *(one.name for one in rows)), body)
+
+
+def _name(text: str) -> str:
+    return text if len(text) <= LONGEST_NAME else f"{text[:LONGEST_NAME]}…"
 
 
 def _counted(rows: Sequence[Row], part: str) -> Table:
     """The most frequent substitutions, or conditions that stop mission plans."""
     keys, heads, nothing = COUNTED[part]
     counts = [
-        Counter({tuple(line[key] or "" for key in keys): line["n"] for line in found})
+        Counter({tuple(_name(line[key] or "") for key in keys): line["n"] for line in found})
         for found in (one.breakdown.get(part, ()) for one in rows)
     ]
     total: Counter[tuple[str, ...]] = sum(counts, Counter())

@@ -21,8 +21,6 @@ RowKind = Literal["measured", "published", "baseline", "section"]
 Bounds = tuple[float | None, float | None, float | None]
 
 NOTHING = "–"
-LONGEST_CELL = 80
-"""Characters of a cell in Markdown: names come from models."""
 TEX: dict[str, str] = json.loads(Path(__file__).with_name("tex.json").read_text(encoding="utf-8"))
 """What LaTeX is given for characters that it reads or lacks."""
 
@@ -123,9 +121,7 @@ def printable(text: str) -> str:
 
 def _md(text: str) -> str:
     """A text on one line that cannot end its cell."""
-    text = printable(text)
-    shown = text if len(text) <= LONGEST_CELL else f"{text[:LONGEST_CELL]}…"
-    return shown.replace("|", "\\|")
+    return printable(text).replace("|", "\\|")
 
 
 def csv_text(rows: Iterable[Sequence[Any]]) -> str:

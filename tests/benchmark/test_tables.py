@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import replace
 from typing import Any
 
 from rich.console import Console
@@ -13,7 +14,8 @@ from planner_ft.benchmark.layout import print_results, published_rows
 from planner_ft.benchmark.metrics.answers import FAILURES
 from planner_ft.benchmark.results import Results, Row, System
 from planner_ft.benchmark.statistics import Estimate
-from planner_ft.benchmark.tables import render_tables
+from planner_ft.benchmark.tables import _counted, render_tables
+from planner_ft.support.tables import Table, markdown_table, row
 
 
 def results(
@@ -90,6 +92,15 @@ def test_no_table_is_wider_than_a_page() -> None:
     ]
     lines = markdown(results(*systems, vocabulary="another")).splitlines()
     assert max(line.count("|") for line in lines) <= 12
+
+
+def test_cells_are_whole_and_names_that_a_model_wrote_are_cut() -> None:
+    heading, cell = "h" * 100, "c" * 100
+    assert f"| {heading} | {cell} |" in markdown_table(Table("", ("",), [row(heading, cell)]))
+    found = results(BASE)
+    wrote = {"expected": "Transit", "predicted": "x" * 100, "n": 1}
+    one = replace(found.rows[0], breakdown={"substitutions": [wrote]})
+    assert _counted([one], "substitutions").rows[0].cells[0].text == "x" * 80 + "…"
 
 
 def test_a_merged_model_is_no_base() -> None:
