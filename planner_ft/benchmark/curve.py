@@ -160,8 +160,7 @@ class Trained(Unit):
             flags |= {"output": adapter, "seed": self.seed}
             flags |= {"validation-file": checked} if (checked := request.validation_file) else {}
             flags |= curve.settings
-            pairs = ((f"--{name.replace('_', '-')}", str(one)) for name, one in flags.items())
-            given = itertools.chain.from_iterable(pairs)
+            given = itertools.chain.from_iterable(given_as(*flag) for flag in flags.items())
             yield "train", ["train", *given, "--resume"], here / "train.log"
         name = parse_configuration(f"{'lora' if self.size else 'base'}+{curve.strength}").name
         settings = BenchSettings(
@@ -265,3 +264,11 @@ def write_curve(curve: Curve) -> list[Point]:
     manifest = build_manifest("learning-curve", seed=SEED, configuration=asked, inputs=inputs)
     files.write_json(curve.out / RESULT, {**record, "manifest": manifest})
     return found
+
+
+def given_as(name: str, value: object) -> list[str]:
+    """A setting of `train` as it is given on the command line."""
+    flag = name.replace("_", "-")
+    if isinstance(value, bool):
+        return [f"--{flag}" if value else f"--no-{flag}"]
+    return [f"--{flag}", str(value)]

@@ -61,7 +61,8 @@ def known_tests(level: Level, folder: Path, vocabulary: Vocabulary) -> Iterator[
         source = find_source()
         places += [source] if level == "mission" else []
         for path in {one.resolve(): one for one in (Path(), source.parent.parent)}.values():
-            yield from sorted((path / "eval" / "challenge").glob(f"{level}*.jsonl"))
+            found = sorted((path / "eval" / "challenge").glob("*.jsonl"))
+            yield from (one for one in found if one.name.startswith("task") == (level == "task"))
     for path in {one.resolve(): one for one in places}.values():
         yield from sorted([*path.glob("test*.jsonl"), *path.glob("challenge*.jsonl")])
 

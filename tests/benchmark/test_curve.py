@@ -25,6 +25,7 @@ from planner_ft.benchmark.curve import (
     answer,
     begin,
     compared,
+    given_as,
     prepare,
     run_units,
     write_curve,
@@ -334,3 +335,12 @@ def test_progress_is_counted_while_a_training_drops_its_checkpoints(
     unit = units.Unit("2 commands", tmp_path, queries=3)
     monkeypatch.setattr(os, "scandir", gone)
     assert unit.written() == 2
+
+
+def test_settings_are_given_to_a_training_as_train_takes_them() -> None:
+    assert given_as("vocabulary_in_prompt", True) == ["--vocabulary-in-prompt"]
+    assert given_as("vocabulary_in_prompt", False) == ["--no-vocabulary-in-prompt"]
+    assert given_as("learning_rate", 1e-3) == ["--learning-rate", "0.001"]
+    for form in ("--vocabulary-in-prompt", "--no-vocabulary-in-prompt"):
+        given = ["train", "--level", "mission", "--candidate", "nosuch", form]
+        assert "nosuch" in str(CliRunner().invoke(app, given).exception)

@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
+from planner_ft.data.curated import known_tests
 from planner_ft.data.leakage import near_duplicate
 from planner_ft.support.files import read_jsonl
+from planner_ft.vocabulary import load_vocabulary
 
 FILES = sorted(Path("data/operators").glob("*.jsonl"))
 MEASURED = [
@@ -45,3 +47,14 @@ def test_families_and_commands_are_apart_from_the_curated_ones() -> None:
             key
         )
     assert len({record["id"] for record in records}) == len(records)
+
+
+def test_every_challenge_set_is_known_as_a_test_of_its_level(tmp_path: Path) -> None:
+    known = {
+        level: {one.name for one in known_tests(level, tmp_path, load_vocabulary("usv"))}
+        for level in ("mission", "task")
+    }
+    assert {"operators.jsonl", "things.jsonl", "mission_third.jsonl"} <= known["mission"]
+    assert {"task.jsonl", "task_unseen.jsonl"} <= known["task"]
+    assert not [one for one in known["mission"] if one.startswith("task")]
+    assert not known["task"] & {"operators.jsonl", "mission.jsonl"}
