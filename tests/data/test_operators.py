@@ -19,6 +19,7 @@ MEASURED = [
     Path("data/mission/challenge.jsonl"),
     Path("eval/challenge/operators.jsonl"),
     Path("eval/challenge/things.jsonl"),
+    Path("eval/challenge/turns.jsonl"),
     *sorted(Path("eval/challenge").glob("mission*.jsonl")),
     *sorted(Path("eval/field").glob("*.jsonl")),
 ]
