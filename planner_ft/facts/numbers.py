@@ -57,8 +57,8 @@ _PART = re.compile(
 )
 _ROUND = ("round", "around", "about")
 _LAPS = re.compile(
-    r"[\s-]*(?:full |complete )?(?:times?|turns?|laps?|rounds?|circles?|circuits?|orbits?"
-    r"|x(?=\s+[a-z]))",
+    r"[\s-]*(?:(?:full|complete|\w*-?clockwise|left[ -]hand|right[ -]hand) )?"
+    r"(?:(?:time|turn|lap|round|circle|circuit|orbit)s?|x(?=\s+[a-z]))",
     re.IGNORECASE,
 )
 
