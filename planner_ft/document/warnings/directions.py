@@ -11,7 +11,7 @@ from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, Point, bearing, place_of
 from planner_ft.document.warnings.case import FULL, Case, Warning, lost, skills_of
 from planner_ft.document.warnings.route import own_waypoints
-from planner_ft.document.warnings.said import CORRECTED
+from planner_ft.document.warnings.said import CORRECTED, NO
 from planner_ft.facts import Number, is_number, near
 from planner_ft.facts.places import read_bearings
 from planner_ft.vocabulary import Entry
@@ -148,7 +148,8 @@ def turned_otherwise(case: Case) -> Iterator[Warning]:
     said = sorted(spans.values())
     for (start, end, sense), after in itertools.zip_longest(said, said[1:]):
         between = case.text[end : after[0]] if after else ""
-        replaced = len(between) <= CORRECTED and case.words["correction"].search(between)
+        corrected = case.words["correction"].search(between) or NO.match(between)
+        replaced = corrected and len(between) <= CORRECTED
         if not replaced and not any(sense in _senses(task, case) for task in case.tasks):
             yield case.lost(start, end)
 

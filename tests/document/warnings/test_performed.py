@@ -78,6 +78,8 @@ def look(*headings: float) -> dict[str, Any]:
         ("clockwise and then anticlockwise", [arc(360), arc(-360)], True),
         ("clockwise and then anticlockwise", [arc(360), arc(360)], False),
         ("clockwise, sorry, anticlockwise", [arc(-360)], True),
+        ("clockwise. No, hang on, anticlockwise", [arc(-360)], True),
+        ("clockwise no anticlockwise", [arc(-360)], True),
         ("not clockwise", [arc(-360)], True),
         ("anticlockwise", [look(0, 270, 180, 90)], True),
         ("anticlockwise", [look(0, 90, 180, 270)], False),
