@@ -138,19 +138,19 @@ def begun_otherwise(case: Case) -> Iterator[Warning]:
 
 def turned_otherwise(case: Case) -> Iterator[Warning]:
     """A sense of rotation in which no task of the plan turns or goes round."""
-    clauses = [clause for clause in case.clauses if not clause.corrected]
+    # "Counter-clockwise" has both words.
     spans = {
-        end: (start, end, sense)  # "counter-clockwise" has both words
+        one.end(): (*one.span(), sense)
         for sense in SENSES
-        for clause in clauses
-        for start, end in clause.spans(case.words[sense])
+        for one in case.words[sense].finditer(case.text)
     }
     said = sorted(spans.values())
     for (start, end, sense), after in itertools.zip_longest(said, said[1:]):
         between = case.text[end : after[0]] if after else ""
         corrected = case.words["correction"].search(between) or NO.match(between)
-        replaced = corrected and len(between) <= CORRECTED
-        if not replaced and not any(sense in _senses(task, case) for task in case.tasks):
+        gone = corrected and len(between) <= CORRECTED
+        had = gone or any(sense in _senses(task, case) for task in case.tasks)
+        if not had and case.wants(start):
             yield case.lost(start, end)
 
 
