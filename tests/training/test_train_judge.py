@@ -11,11 +11,15 @@ import pytest
 from rich.console import Console
 from safetensors.torch import load_file
 
+from planner_ft.benchmark.contrasts import sentences
 from planner_ft.benchmark.judge import Judge, small_form
+from planner_ft.benchmark.paired import Comparison
+from planner_ft.benchmark.statistics import Estimate
 from planner_ft.decoding.forward import read_forms
 from planner_ft.training import model as in_training
 from planner_ft.training.loop import InterruptedRunError
 from planner_ft.training.run import train
+from planner_ft.training.settings import TrainSettings
 
 
 class Scripted(Judge):
@@ -47,6 +51,26 @@ def test_answers_are_scored_after_every_epoch_and_the_change_is_said(
     text = text_of(quiet)
     assert "base: F1 0.00, valid 0%, exact 0% of 2 answers" in text
     assert "validation loss" in text
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "bounds", "said"),
+    [
+        (0.5, 0.9, (0.2, 0.6), "better than the base on 20 validation samples: F1 0.50 to 0.90"),
+        (0.79, 1.0, (0.0, 0.43), "not told apart from the base on 20 validation samples: F1 0.79"),
+        (0.79, 0.79, (-0.05, 0.05), "no better than the base on 20 validation samples: F1 0.79"),
+        (0.79, 0.7, (-0.2, 0.02), "no better than the base on 20 validation samples: F1 0.79"),
+        (0.9, 0.5, (-0.6, -0.2), "worse than the base on 20 validation samples: F1 0.90 to 0.50"),
+    ],
+)
+def test_a_gain_that_may_be_chance_is_not_told_apart(
+    first: float, second: float, bounds: tuple[float, float], said: str
+) -> None:
+    found = Comparison("", "", "f1", first, second, 20, 20, Estimate(second - first, *bounds))
+    known = {"f1": found, "exact": found, "n": 20, "settings": TrainSettings()}
+    (text,) = sentences("judge", **known, falling=True, more="--vary 3")
+    assert text.startswith(said)
+    assert ("next: more passes" in text) == (not said.startswith("better"))
 
 
 @pytest.mark.parametrize(("select", "kept"), [("f1", 1), ("loss", 2)])
@@ -125,7 +149,6 @@ def test_a_small_model_in_training_answers_as_the_adapter_folder_will(tmp_path: 
 
     from planner_ft.candidates import resolve_candidate
     from planner_ft.candidates.loading import load_model
-    from planner_ft.training.settings import TrainSettings
 
     candidate = resolve_candidate("embedded")
     base = load_model(candidate, device="cpu", quantization="nf4", trainable=True)
