@@ -187,7 +187,12 @@ def _run(settings: BenchSettings, *, report: bool) -> None:
 def _check_file_alone(
     kind: str, path: Path, named: dict[str, Any], allowed: tuple[str, ...] = ()
 ) -> None:
-    """Raise PlannerError for flags that a suite or gate file sets itself, and under accelerate."""
+    """Raise PlannerError without the suite or gate file, for flags that it sets itself, and under
+    accelerate.
+    """
+    if not path.exists():
+        way_out = f"name one of yours, or start in a checkout, which has some in eval/{kind}s"
+        raise PlannerError(f"--{kind} {path}: no such file; {way_out}")
     if started_with_others():
         way_out = "a suite shares its runs itself with --processes N"
         raise PlannerError(f"--{kind} is started once, not by accelerate; {way_out}")
@@ -264,7 +269,7 @@ PLACE = (100.0, 50.0)
 
 def run_whole(o: Options, named: dict[str, Any]) -> None:
     """Run field cases, or the demands of --data; print the table. `named` say what is run."""
-    from planner_ft.benchmark.field.cases import DEMANDS, case_files
+    from planner_ft.benchmark.field.cases import case_files, demands_file
     from planner_ft.benchmark.field.run import Demands, Field, run_cases
     from planner_ft.benchmark.folder import PLANS
     from planner_ft.planning.settings import PlanSettings
@@ -274,7 +279,7 @@ def run_whole(o: Options, named: dict[str, Any]) -> None:
         raise PlannerError(f"{flag} plans whole commands; leave out {typed(extra)}")
     vocabulary = load_vocabulary(o.vocabulary or "usv")
     bench: Field | Demands = Field() if o.field else Demands()
-    files = case_files(o.cases or ()) if o.field else [o.data or DEMANDS]
+    files = case_files(o.cases or ()) if o.field else [o.data or demands_file()]
     how = {"vocabulary": vocabulary.source, **o.take("quantization", "device")}
     agents = [
         PlanSettings(candidate, configuration=one or None, **how)

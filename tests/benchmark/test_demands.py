@@ -35,6 +35,20 @@ def planned(_case: Case) -> Outcome:
     return Outcome(made)
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [("--level", "both"), ("--gate", "eval/gates/ci.toml"), ("--suite", "eval/suites/ci.toml")],
+)
+def test_a_file_of_the_checkout_is_told_where_it_is(
+    arguments: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    refused = CliRunner().invoke(app, ["bench", *arguments, "--out", str(tmp_path / "out")])
+    assert isinstance(refused.exception, PlannerError)
+    assert "start in a checkout" in str(refused.exception)
+    assert not any(tmp_path.iterdir())
+
+
 def test_what_the_vehicle_adds_is_counted_apart_from_the_agents(tmp_path: Path) -> None:
     path = tmp_path / "demands.jsonl"
     path.write_text(json.dumps(RECORD) + "\n")

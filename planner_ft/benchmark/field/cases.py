@@ -62,6 +62,14 @@ def case_files(files: Sequence[Path]) -> list[Path]:
     return paths
 
 
+def demands_file() -> Path:
+    """The file of demands where none is named. Raises PlannerError when it is not here."""
+    if not DEMANDS.is_file():
+        way_out = "give --data FILE, or start in a checkout, which has it"
+        raise PlannerError(f"--level both: there is no {DEMANDS} here; {way_out}")
+    return DEMANDS
+
+
 def load_cases(files: Sequence[Path], vocabulary: Vocabulary) -> list[Case]:
     """The cases of files. Raises PlannerError with file and line."""
     cases = []
