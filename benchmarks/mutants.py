@@ -8,6 +8,7 @@ SEED=1 and so on in the environment draws others. A change with which the tests 
 
 from __future__ import annotations
 
+import argparse
 import ast
 import contextlib
 import copy
@@ -22,7 +23,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-import coverage
 import pytest
 
 PAIRS = re.findall("[A-z]+", "Lt LtE Gt GtE Eq NotEq In NotIn Is IsNot And Or Add Sub Mult Div")
@@ -94,23 +94,32 @@ def survives(file: Path, at: int, tests: list[str], lines: Any, seconds: float) 
 
 
 if __name__ == "__main__":
-    count, sources, *tests = sys.argv[1:]
+    how = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=how)
+    parser.add_argument("count", type=int, help="how many faults are made")
+    parser.add_argument("sources", help="pattern of the files that they are made in")
+    parser.add_argument("tests", nargs="+", help="folders or files of the tests")
+    given = parser.parse_args()
+    try:
+        import coverage
+    except ImportError:
+        parser.error("coverage is not installed: pip install coverage")
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(".", f"{folder}/copy", ignore=shutil.ignore_patterns(".git", ".venv*"))
         os.chdir(f"{folder}/copy")
         os.environ["PYTHONPATH"] = sys.path[0] = f"{folder}/copy"
         sys.dont_write_bytecode = True
-        files = sorted(Path().glob(sources))
+        files = sorted(Path().glob(given.sources))
         noted = coverage.Coverage(".lines", include=[str(file.resolve()) for file in files])
         began = time.monotonic()
-        assert Tests(set(), noted).succeed(tests), "the tests fail without a fault"
+        assert Tests(set(), noted).succeed(given.tests), "the tests fail without a fault"
         (lines := coverage.CoverageData(".lines")).read()
         every = [place for file in files for place in places(file)]
-        drawn = random.Random(int(os.environ.get("SEED", "0"))).sample(every, int(count))
+        drawn = random.Random(int(os.environ.get("SEED", "0"))).sample(every, given.count)
         limit = 60 + 2 * (time.monotonic() - began)
         alive = 0
         for place in drawn:
-            if text := survives(*place, tests, lines, limit):
+            if text := survives(*place, given.tests, lines, limit):
                 print(text, flush=True)
                 alive += 1
-        print(f"{len(drawn) - alive} of {count} are noticed")
+        print(f"{len(drawn) - alive} of {given.count} are noticed")

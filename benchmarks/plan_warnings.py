@@ -30,6 +30,7 @@ from planner_ft.vocabulary.plans import step_skills
 
 USV = load_vocabulary()
 SEED = 23
+SAMPLED = Path("data/task/train.jsonl")
 COUNTED = {
     "mission": tuple(
         kind for kind in SERIOUS if kind not in ("unresolved-location", "no-skills", "left-out")
@@ -264,8 +265,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", type=Path, help="also write the figures into this file")
     arguments = parser.parse_args()
+    if not SAMPLED.is_file():
+        parser.error(f"{SAMPLED}: no such file; write it with `plannerft gen-data --level task`")
     corrections("thrml")  # Reads the word lists once.
-    sampled = read_jsonl("data/task/train.jsonl")
+    sampled = read_jsonl(SAMPLED)
     speed(1, sampled[1000:])  # Reads the word files once.
     results: dict[str, Any] = {
         "false alarms": {},

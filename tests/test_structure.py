@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import runpy
+import sys
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -143,3 +145,26 @@ def test_no_property_test_has_a_deadline() -> None:
     assert hypothesis.settings.default.deadline is None
     files = [path for path in Path(__file__).parent.rglob("test_*.py") if path != Path(__file__)]
     assert [path.name for path in files if "deadline=" in path.read_text("utf-8")] == []
+
+
+@pytest.mark.parametrize(
+    ("script", "arguments", "way_out"),
+    [
+        ("mutants.py", ["1", "planner_ft/cli/*.py", "tests/cli"], "pip install coverage"),
+        ("plan_warnings.py", [], "plannerft gen-data --level task"),
+    ],
+)
+def test_a_benchmark_that_lacks_something_says_what(
+    script: str,
+    arguments: list[str],
+    way_out: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setitem(sys.modules, "coverage", None)
+    monkeypatch.setattr(sys, "argv", [script, *arguments])
+    with pytest.raises(SystemExit) as stop:
+        runpy.run_path(str(ROOT.parent / "benchmarks" / script), run_name="__main__")
+    assert stop.value.code == 2 and way_out in capsys.readouterr().err
