@@ -10,6 +10,8 @@ from pathlib import Path
 import nbformat
 import pytest
 
+import planner_ft
+
 ROOT = Path(__file__).parents[1]
 NOTEBOOK = ROOT / "notebooks" / "first_adapter.ipynb"
 
@@ -18,19 +20,26 @@ NOTEBOOK = ROOT / "notebooks" / "first_adapter.ipynb"
 def test_the_notebook_runs_on_a_stand_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """In its folder of a checkout, with the package installed elsewhere."""
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     nbformat.validate(notebook)
-    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scripts").symlink_to(ROOT / "scripts")
+    (folder := tmp_path / "notebooks").mkdir()
+    monkeypatch.chdir(folder)
+    installed = tmp_path / "site-packages" / "planner_ft" / "__init__.py"
     monkeypatch.setenv("PLANNERFT_MODELS", "")  # put back afterwards, whatever the notebook sets
     names: dict[str, object] = {}
     for cell in notebook.cells:
         if cell.cell_type == "code":
             assert not cell.outputs and cell.execution_count is None
-            exec(compile(cell.source, str(NOTEBOOK), "exec"), names)
+            with monkeypatch.context() as patch:
+                if "make_standins" in cell.source:
+                    patch.setattr(planner_ft, "__file__", str(installed))
+                exec(compile(cell.source, str(NOTEBOOK), "exec"), names)
     shown = capsys.readouterr().out
     assert "3 steps" in shown and "stand-in" in shown and "nothing was sent" in shown
-    assert (tmp_path / "first_adapter" / "bench" / "table.md").is_file()
-    assert (tmp_path / "first_adapter" / "data" / "mission" / "chat" / "train.jsonl").is_file()
+    assert (folder / "first_adapter" / "bench" / "table.md").is_file()
+    assert (folder / "first_adapter" / "data" / "mission" / "chat" / "train.jsonl").is_file()
 
 
 def test_the_container_file_names_files_that_are_there_and_commands_that_parse() -> None:
