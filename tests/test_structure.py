@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import runpy
 import sys
 from collections.abc import Iterator
@@ -168,3 +169,14 @@ def test_a_benchmark_that_lacks_something_says_what(
     with pytest.raises(SystemExit) as stop:
         runpy.run_path(str(ROOT.parent / "benchmarks" / script), run_name="__main__")
     assert stop.value.code == 2 and way_out in capsys.readouterr().err
+
+
+def test_pages_name_files_that_exist_and_train_beside_the_shipped_adapters() -> None:
+    root = ROOT.parent
+    for page in [root / "README.md", root / "CONTRIBUTING.md", *(root / "docs").glob("*.md")]:
+        text = page.read_text("utf-8")
+        named = re.findall(r"(?:tests|benchmarks|scripts)/[\w/]+\.py", text)
+        assert [name for name in named if not (root / name).is_file()] == [], page
+        trained = re.findall(r"^    plannerft train .*--candidate embedded\b.*", text, re.M)
+        kept = [line for line in trained if "--output" in line or "--preview" in line]
+        assert trained == kept, page
