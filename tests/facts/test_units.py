@@ -131,6 +131,8 @@ def test_what_is_counted_has_no_base() -> None:
         (5, None, "m", None),
         (5, "m", "s", None),
         (3, "L/min", "m3/h", 0.18),
+        (1, "hl", "L", 100),
+        (1, "hectolitre", "m3", 0.1),
     ],
 )
 def test_conversions(
