@@ -89,7 +89,7 @@ def parse_locations(texts: Sequence[str]) -> dict[str, Position]:
 
 
 def resolve(plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary) -> dict[str, Any]:
-    """The plan with the named places filled in; names match by part, without case and article.
+    """The plan with the named places filled in; names match by whole words, without case, article.
 
     Raises PlannerError for a name that is not open or given twice, and for the unknown position.
     """
@@ -158,10 +158,11 @@ def fitting(
     plan: dict[str, Any], locations: Locations, vocabulary: Vocabulary
 ) -> tuple[dict[str, Position], list[str]]:
     """The locations that resolve takes, and a note for each of the others: they are points of the
-    chart all the same, but for the unknown position.
+    chart all the same, but for the unknown position. A name in full comes before a part of it.
     """
     fits, notes = dict[str, Position](), list[str]()
-    for name, position in locations.items():
+    full = {_plain(place.name) for place in open_places(plan, vocabulary)}
+    for name, position in sorted(locations.items(), key=lambda one: _plain(one[0]) not in full):
         try:
             resolve(plan, {**fits, name: position}, vocabulary)
             fits[name] = position
@@ -177,7 +178,8 @@ def charted(chart: Locations, places: Sequence[OpenPlace]) -> dict[str, Position
     for place in places:
         wanted = _plain(place.name)
         fits = [name for name in chart if _plain(name) == wanted]
-        fits = fits or [name for name in chart if _plain(name) in wanted or wanted in _plain(name)]
+        both = [(name, _plain(name)) for name in chart]
+        fits = fits or [name for name, own in both if _has(wanted, own) or _has(own, wanted)]
         if len({chart[name] for name in fits}) == 1:
             found[place.name] = chart[fits[0]]
     return found
@@ -186,7 +188,7 @@ def charted(chart: Locations, places: Sequence[OpenPlace]) -> dict[str, Position
 def _matching(name: str, places: Sequence[OpenPlace]) -> OpenPlace:
     wanted = _plain(name)
     exact = [place for place in places if _plain(place.name) == wanted]
-    found = exact or [place for place in places if wanted in _plain(place.name)]
+    found = exact or [place for place in places if _has(_plain(place.name), wanted)]
     if len(found) == 1:
         return found[0]
     names = ", ".join(f'"{place.name}"' for place in found or places)
@@ -211,6 +213,11 @@ def _name_of(entry: Mapping[str, Any], searched: Sequence[str], vocabulary: Voca
 
 def _plain(name: str) -> str:
     return ARTICLE.sub("", " ".join(name.lower().split()))
+
+
+def _has(name: str, part: str) -> bool:
+    """Whether a name has a part in whole words and numbers: "room 203" has no "room 20"."""
+    return bool(re.search(rf"(?<!\w)(?<!\d[.,]){re.escape(part)}(?!\w|[.,]\d)", name))
 
 
 # ---------------------------------------------------------------- places and areas of GeoJSON files

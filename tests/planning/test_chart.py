@@ -81,3 +81,9 @@ def test_a_chart_fills_what_fits_one_place() -> None:
     places = [OpenPlace("green buoy", (1,)), OpenPlace("old wreck", (2,))]
     chart = {"The Green Buoy": (1.0, 2.0), "wreck": (3.0, 4.0), "pier": (5.0, 6.0)}
     assert charted(chart, places) == {"green buoy": (1.0, 2.0), "old wreck": (3.0, 4.0)}
+
+
+def test_a_chart_fits_in_whole_words_and_numbers() -> None:
+    places = [OpenPlace("room 203", (1,)), OpenPlace("room 1", (2,)), OpenPlace("lift", (3,))]
+    chart = {"room 20": (1.0, 2.0), "room 11": (3.0, 4.0), "goods lift": (5.0, 6.0)}
+    assert charted(chart, places) == {"lift": (5.0, 6.0)}

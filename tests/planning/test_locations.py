@@ -145,6 +145,25 @@ def test_a_note_says_that_what_is_no_place_of_a_task_is_kept_clear_of() -> None:
     assert buoy.endswith("give where it is.")
 
 
+@pytest.mark.parametrize("name", ["room 20", "room 2", "oom 203", "3"])
+def test_a_part_of_a_word_or_number_is_no_name(name: str) -> None:
+    room = plan(
+        ("SearchAndDetect", {"target_description": "room 203"}, "Find room 203."),
+        ("Transit", {"target_position": OPEN}, "Go to room 203."),
+    )
+    fits, (note,) = fitting(room, {name: (5.0, 5.0)}, USV)
+    assert fits == {} and 'no such place is open; there is "room 203"' in note
+    assert fitting(room, {"203": (5.0, 5.0)}, USV) == ({"203": (5.0, 5.0)}, [])
+
+
+def test_a_name_in_full_wins_in_any_order() -> None:
+    given = {"buoy": (5.0, 5.0), "the green buoy": (9.0, 9.0)}
+    for locations in (given, dict(reversed(given.items()))):
+        fits, (note,) = fitting(TWO_TARGETS, locations, USV)
+        assert fits == {"the green buoy": (9.0, 9.0)}
+        assert '"green buoy" is located by "the green buoy" already' in note
+
+
 def test_a_location_for_a_plan_without_open_places_is_an_error() -> None:
     with pytest.raises(PlannerError, match="leaves no place open"):
         resolve(
