@@ -29,7 +29,7 @@ _TOKEN = re.compile(
     r"|\d{1,2},\d(?=\s?(?:m/s|kn|kts?|knots|m|met(?:re|er)s?|min(?:ute)?s?|h(?:ours)?)\b))"
     rf"|(?:\d+\s?)?[{''.join(lists.VULGAR)}]|(?<![\w.])\d+(?:\.\d+)?e\+?\d{{1,2}}(?!\w)"
     r"|(?:1/[2-9]|2/[3579]|3/[4578]|4/5|5/[68]|7/8)(?!\d)|\d*\.\d+|\d+"
-    r"|[a-z°]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
+    r"|[a-z°µμΩ]+(?:'[a-z]+)?|(?<![a-z])[-−–]|[-−–](?![a-z])|[^\s\w−–-]",
     re.IGNORECASE,
 )
 """A hyphen between letters is no token: "ninety-five" is ninety five."""

@@ -31,6 +31,15 @@ SAID = """
     dose 5 litres a minute | L/min | 5 |
     dose 3.2 kg/s | kg/min | 192 | 3.2
     clear 20000 m² | ha | 2 | 20000
+    treat it with 20 mJ/cm² | J/m² | 200 | 20
+    treat it with 20 mJ/cm^2 | J/m² | 200 | 20
+    heat it with 3 MJ | kJ | 3000 | 3
+    clear 40 mm² | cm² | 0.4 | 40
+    leave 40 µm | mm | 0.04 | 40
+    leave 40 microns | mm | 0.04 | 40
+    leave 2 nm | km | 3.704 | 2
+    check the 5 Ω | kΩ | 0.005 |
+    spray 5 gpa | L/ha | 46.77 | 5
     wait two hours | min | 120 | 2
     wait 1 h 30 min | min | 90 |
     drive at 5 m/s | km/h | 18 | 5
