@@ -8,12 +8,15 @@ import re
 import tomllib
 from collections.abc import Mapping
 
-from planner_ft.facts.words import FOLDER, UNITS, Unit
+from planner_ft.facts.words import FOLDER, UNITS, Unit, corrections, is_known
 from planner_ft.vocabulary import Entry, Parameter
 
 FEWEST = 4  # letters from which a spelling is a word, in any case and with a plural
 COUNT = ""  # the base of what is counted
 _PER = r"(?:\s?/\s?|\s+(?:per|an?)\s+)"
+_LIKE = re.compile(r"\s?([^\W\d_]+(?:\^?[23])?(?:/[^\W\d_]+(?:\^?[23])?)?)(?![\w'’-])")
+_MIXED = re.compile(r"[a-zµμ][A-Z]|[\^23²³]")
+"""What hardly a word has: "mWs", "cm³"."""
 
 
 @functools.lru_cache(maxsize=256)
@@ -67,6 +70,18 @@ def unit_at(text: str, start: int, *, letters: bool) -> tuple[Unit, int] | None:
         return None
     unit = named(match["one"])
     return (unit, match.end()) if unit else None
+
+
+def unknown_at(text: str, start: int, own: str | None) -> str | None:
+    """A word right behind a number that is like a unit, and none that is known: "mWs/cm²"; None
+    for a parameter whose `own` unit is not known.
+    """
+    match = _LIKE.match(text, start)
+    if match is None or named(match[1]) or not named(own):
+        return None
+    parts = [part for part in match[1].split("/") if not named(part) and not is_known(part)]
+    like = ("/" in match[1] or _MIXED.search(part) or not corrections(part) for part in parts)
+    return match[1] if match[1][1:] and any(like) else None
 
 
 def _ratio(above: Unit, below: Unit) -> Unit:

@@ -23,6 +23,7 @@ from planner_ft.facts import (
 from planner_ft.facts.inputs import read_input
 from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import is_course, written_positions
+from planner_ft.facts.units import unknown_at
 from planner_ft.facts.words import edit_distance, missing_words, unknown_words, words
 from planner_ft.planning.shapes import SIZE, SPACING, pass_ends, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
@@ -65,6 +66,8 @@ def unsaid(case: Case) -> Iterator[Warning]:
                 continue
             elif is_number(value) and _is_coordinate(evidence, said, case.positions):
                 yield warning("value-not-said", "coordinate", **about)
+            elif unit := _unknown_unit(evidence, said, parameter):
+                yield warning("value-not-said", "unknown_unit", **about, words=unit)
             elif bare:
                 yield warning("value-not-said", "unit", **about)
             elif _contradicts(prompt, value, parameter):
@@ -259,6 +262,12 @@ def _has_no_unit(evidence: Evidence, said: Facts) -> bool:
     numbers = [read_numbers(said.text[start:end]) for start, end in spans]
     bare = [bool(found) and all(one.unit is None for one in found) for found in numbers]
     return evidence.kind == "stated" and bool(bare) and all(bare)
+
+
+def _unknown_unit(evidence: Evidence, said: Facts, parameter: Parameter) -> str | None:
+    """What stands like a unit behind the number of a value that has one, and is none."""
+    bare = _has_no_unit(evidence, said)
+    return unknown_at(said.text, evidence.spans[-1][1], parameter.unit) if bare else None
 
 
 def worked_out(case: Case) -> Iterator[Warning]:

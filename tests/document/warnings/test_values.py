@@ -184,6 +184,18 @@ def test_a_time_has_a_unit_that_is_said() -> None:
         assert len([one for one in found if "no unit" in one]) == count
 
 
+def test_a_unit_that_is_not_known_is_told() -> None:
+    circle = task("PerformOrbit", {"center": [9, 9], "radius": 20}, None)
+    for said, word in (
+        *(("20 mSv/cm²", "mSv/cm²"), ("20 qt/ac", "qt/ac"), ("20 bxq", "bxq"), ("20 kGy", "kGy")),
+        *(("20", ""), ("20 m", ""), ("20 metrs", ""), ("20 off", ""), ("20 rnd", "")),
+    ):
+        plan = document([circle], command=f"Circle the barge at [9, 9] at a radius of {said}.")
+        found = [one for one in texts(plan, "value-not-said") if "not known" in one]
+        own = f'Task 1, PerformOrbit: radius is 20 m, and the command says it in "{word}", a unit'
+        assert found == ([f"{own} that is not known."] if word else []), said
+
+
 def test_a_place_that_follows_is_named_only_where_a_value_is_lost() -> None:
     command = "Go to [30, 40], then 10 m further north{}."
     tasks = [
