@@ -139,6 +139,13 @@ PLACELESS = "brings the vehicle to a place and needs a parameter of type positio
         ([("vehicle.transit", "Beam")], ["[vehicle] transit = 'Beam' is no task"]),
         ([("vehicle.transit", "SendReport")], [f"task SendReport: {PLACELESS}"]),
         (
+            [("vehicle.locate", "SendReport")],
+            [
+                "task SendReport: [vehicle] locate says what is searched for and needs a parameter"
+                " of type text"
+            ],
+        ),
+        (
             [("task.1.require_any", ["speed"])],
             ["task FlyToPoint: require_any names 'speed', which is no parameter"],
         ),
