@@ -97,12 +97,13 @@ def vocabulary(o: Options) -> None:
 def vehicle(o: Options) -> None:
     """Begin a vehicle of one's own, or check it."""
     from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
+    from planner_ft.simulation.checking import check_simulation
 
     if o.action == "new":
         for path in new_vehicle(o.name, o.out):
             show(str(path))
     elif o.action == "check":
-        parts = check_vehicle(o.name)
+        parts = check_vehicle(o.name, check_simulation)
         for part in parts:
             show(str(part))
         raise typer.Exit(any(part.state == "wrong" for part in parts))

@@ -136,6 +136,8 @@ def _problems(own: dict[str, Any], vocabulary: Vocabulary) -> Iterator[str]:
                 of = "names" if wrong[0] == named else "words"
                 yield f"[[{kind}]]: {wrong[0]} must be a list of {of}"
             else:
+                keys = (*needed, *optional, "sends" if kind == "ask" else "ruled_out")
+                yield from (f"[[{kind}]]: unknown key {key!r}" for key in entry if key not in keys)
                 unknown = [name for name in entry.get(named, ()) if name not in known]
                 which = f"which is no {named.removesuffix('s')}"
                 yield from (f"[[{kind}]] names {name!r}, {which}" for name in unknown)

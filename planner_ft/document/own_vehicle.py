@@ -19,7 +19,7 @@ from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, read_text, write_text, writing
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.definition import BUNDLED, bundled_vocabularies
+from planner_ft.vocabulary.definition import BUNDLED, ESSENTIALS, MISSIONS, bundled_vocabularies
 from planner_ft.vocabulary.essentials import load_essentials
 from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import plan_names
@@ -30,9 +30,9 @@ State = Literal["ready", "missing", "wrong"]
 SYNTHETIC = "gen-data --synthetic, train --augment"
 FILES: tuple[tuple[str, str, str, Callable[[Vocabulary], Any] | None], ...] = (
     ("phrases", "gen-data --level task", "prompts use names and descriptions", None),
-    ("missions", SYNTHETIC, "there are no synthetic missions", None),
+    ("missions", SYNTHETIC, "there are no synthetic missions", lambda known: _missions(known)),
     ("vehicle", "plan", "plan stops: give --vehicle FILE", lambda known: load_vehicle(None, known)),
-    ("essentials", "plan", "nothing is added to a task or asked", load_essentials),
+    ("essentials", "plan", "nothing is added to a task or asked", lambda known: _unlisted(known)),
     ("ontology", "plan, review", "commands are checked less closely", language),
     ("limits", "plan, review", "limits of a command are not checked", load_limits),
     ("motion", "review, export", "there is no track, estimate or exported movement", None),
@@ -49,6 +49,20 @@ where that is not done with the definition.
 """
 
 
+SLOT = re.compile(r"\{(\w+)\}")
+SLOTS = (
+    "name",
+    "place",
+    "at",
+    "thing",
+    "of",
+    "whereabouts",
+    "position",
+    "found",
+    "feature",
+    "part",
+)
+"""What sentences of NAME.missions.toml can say of every task, beside its parameters."""
 LIMIT = "Limit"  # stands in NAME.missions.toml for the limits of a command, beside the tasks
 PATTERNS = (
     *("goto", "hold", "orbit", "square", "lawnmower", "pass", "line", "approach", "follow"),
@@ -94,9 +108,9 @@ def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
     return written
 
 
-def check_vehicle(source: str) -> list[Part]:
-    """Every file of a vehicle, with what is wrong or lacking. Raises PlannerError for a definition
-    that is not there.
+def check_vehicle(source: str, simulation: Callable[[Vocabulary], Any] | None = None) -> list[Part]:
+    """Every file of a vehicle, with what is wrong or lacking; `simulation` reads that file. Raises
+    PlannerError for a definition that is not there.
     """
     source = _definition(source)
     try:
@@ -111,7 +125,7 @@ def check_vehicle(source: str) -> list[Part]:
         Part(path.name, "every command", "ready", size + doubts),
         _part("mission/", "gen-data, train and bench --level mission", _mission_set, vocabulary),
         _part(f"{Path(vocabulary.source).stem}.commands.jsonl", SYNTHETIC, _templates, vocabulary),
-        *_beside(vocabulary, path),
+        *_beside(vocabulary, path, simulation),
     ]
 
 
@@ -148,20 +162,65 @@ def _doubts(vocabulary: Vocabulary) -> Iterator[str]:
         yield f"the unit {unit!r} is not known: numbers are taken as they are said"
 
 
-def _beside(vocabulary: Vocabulary, path: Path) -> Iterator[Part]:
-    for kind, serves, without, load in FILES:
+def _beside(
+    vocabulary: Vocabulary, path: Path, simulation: Callable[[Vocabulary], Any] | None
+) -> Iterator[Part]:
+    for kind, serves, without, reader in FILES:
+        load = simulation if kind == "simulation" else reader
         file = path.with_suffix(f".{kind}.toml")
         state: State = "ready" if file.is_file() else "missing"
-        text = "read" if file.is_file() else f"without it, {without}"
         try:
             if unknown := _undefined(vocabulary.beside(f".{kind}.toml"), vocabulary):
                 named_so = f"{', '.join(unknown)}: the definition has no such name"
                 raise PlannerError(f"{file.name}: {named_so}; correct it, or remove the table")
-            if load and file.is_file():
-                load(vocabulary)
+            read = load(vocabulary) if load and file.is_file() else ()
+            doubts = read if isinstance(read, list) else []
+            text = "; ".join(["read", *doubts]) if file.is_file() else f"without it, {without}"
         except PlannerError as error:
             state, text = "wrong", str(error)
         yield Part(file.name, serves, state, text)
+
+
+def _missions(vocabulary: Vocabulary) -> None:
+    """Raises PlannerError for demands and slots that name nothing."""
+    raw = vocabulary.beside(MISSIONS)
+    problems = [
+        f"[demand] names {name!r}, which is no skill"
+        for name in raw.get("demand", {})
+        if name not in vocabulary.skill
+    ]
+    for title, own in raw.get("task", {}).items():
+        known = {*SLOTS, *(vocabulary.task[title].by_name if title in vocabulary.task else ())}
+        used = SLOT.findall(" ".join([*own.get("prompt", ()), *own.get("before", ())]))
+        problems += [
+            f"[task.{title}]: {{{name}}} is no parameter, and none of {', '.join(SLOTS)}"
+            for name in dict.fromkeys(used)
+            if name not in known
+        ]
+    if problems:
+        raise PlannerError(f"{vocabulary.name}{MISSIONS}: {'; '.join(problems)}")
+
+
+def _unlisted(vocabulary: Vocabulary) -> list[str]:
+    """Skills that the essentials add to a task whose definition does not list them. Raises
+    PlannerError for values that a skill takes from a task in another unit.
+    """
+    known = load_essentials(vocabulary)
+    for title, own in known.items():
+        for name, takes in own.takes.items():
+            for key, given in takes.items():
+                one = vocabulary.skill[name].by_name[key].unit
+                two = vocabulary.task[title].by_name[given].unit
+                if named(one) and named(two) and named(one) != named(two):
+                    problem = f"takes: {name}.{key} is in {one}, and {given} of the task in {two}"
+                    where = f"{vocabulary.name}{ESSENTIALS}: [task.{title}]"
+                    raise PlannerError(f"{where}: {problem}; give both one unit")
+    return [
+        f"{name} does not fit {title}, which does not list it: it is added all the same"
+        for title, own in known.items()
+        for name in own.skills
+        if not any(name in fit for fit in vocabulary.task[title].skills.values())
+    ]
 
 
 def _undefined(raw: dict[str, Any], vocabulary: Vocabulary) -> list[str]:

@@ -19,14 +19,14 @@ from planner_ft.document.track import Leg, Point, circle_of, hold_time, place_of
 from planner_ft.exporters.formats import PlanExport
 from planner_ft.planning.limits import time_left
 from planner_ft.simulation.asked import GUIDANCE, LEARNT, WAYPOINTS, SimulationSettings
+from planner_ft.simulation.checking import check_measure
 from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.fast import Vessel
 from planner_ft.simulation.measures import Bound, Ring
-from planner_ft.simulation.sensing import MEASURES
 from planner_ft.simulation.skill import Job, implementation_of
 from planner_ft.simulation.world import PILE, Fence, Reach, World
 from planner_ft.support.errors import PlannerError
-from planner_ft.vocabulary.definition import SIMULATION, Motion
+from planner_ft.vocabulary.definition import Motion
 
 CLEAR = 0.5  # share of a learnt stand-off that filters without a distance of their own keep clear
 Entry = Mapping[str, Any]
@@ -225,10 +225,7 @@ class Staging:
         for stage in stages:
             for job in stage.jobs:
                 implementation_of(job).check(job, self.vessel)
-                if (measure := job.settings.get("measure")) not in (None, *MEASURES):
-                    where = f"{self.vocabulary.name}{SIMULATION}: [skill.{job.skill}]"
-                    problem = f"measure = {measure!r} must be one of {', '.join(MEASURES)}"
-                    raise PlannerError(f"{where}: {problem}")
+                check_measure(job.skill, job.settings, self.vocabulary)
 
     def home(self) -> Stage:
         """The way home, with the vehicle's filters that keep clear and inside."""

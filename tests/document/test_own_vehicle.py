@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
+from planner_ft.simulation.checking import check_simulation
 from planner_ft.support.errors import PlannerError
 
 OPTIONAL = {f"my_rover.{name}.toml" for name in ("phrases", "logic", "simulation")}
@@ -143,11 +144,50 @@ def test_a_part_is_a_line_with_what_it_serves(rover: Path) -> None:
         ("missions", "target = 'nobody'", "target = 'nobody': there is no such word list"),
         ("phrases", "skill.Stop.often = 'x'", "skill.Stop.often: 'x' is not of type 'object'"),
         ("limits", "speed = 3", "speed: 3 is not of type 'object'"),
+        ("missions", "target = 'x'\nnothin = 'x'", "('nothin' was unexpected)"),
+        (
+            "missions",
+            "demand.TakePictures = 'x'",
+            "[demand] names 'TakePictures', which is no skill",
+        ),
+        ("missions", "task.Wait.prompt = ['{dosis}']", "[task.Wait]: {dosis} is no parameter"),
+        (
+            "ontology",
+            "[[ask]]\nwords = ['wait']\ntasks = ['Wait']\nsend = true",
+            "[[ask]]: unknown key 'send'",
+        ),
+        (
+            "essentials",
+            "task.LookAround.takes = { Stop = { time = 'radius' } }",
+            "[task.LookAround]: takes: Stop.time is in s, and radius of the task in m",
+        ),
         ("simulation", "skill.Stop.every = 0", "skill.Stop.every: 0 is less than or equal"),
+        ("simulation", "lidar = { rays = 6, reach = 5 }", "('reach' was unexpected)"),
+        ("simulation", "vessel.drive = 'wheels'", "drive = 'wheels' must be differential or free"),
+        ("simulation", "vessel.mass = -60", "mass = -60 must be above 0"),
+        ("simulation", "vessel.drag = [1.0]", "drag must be three numbers"),
+        ("simulation", "vessel.weight = 60", "[vessel] has no key 'weight'"),
+        ("simulation", "skill.Stop.measure = 'gps'", "measure = 'gps' must be one of"),
+        ("simulation", "skill.Stop.implementation = 'nope'", "'nope' is not installed"),
+        ("simulation", "task.Wait.learnt = 'nope'", "[task.Wait] learnt:"),
     ],
 )
 def test_the_shape_of_every_file_is_checked(
     rover: Path, kind: str, content: str, problem: str
 ) -> None:
     rover.with_suffix(f".{kind}.toml").write_text(content + "\n")
-    assert any(part.state == "wrong" and problem in part.text for part in check_vehicle(str(rover)))
+    parts = check_vehicle(str(rover), check_simulation)
+    assert any(part.state == "wrong" and problem in part.text for part in parts), parts
+
+
+def test_bundled_vehicles_are_ready() -> None:
+    for name in ("usv", "inspection_drone"):
+        parts = check_vehicle(name, check_simulation)
+        assert [part for part in parts if part.state == "wrong"] == []
+
+
+def test_a_skill_that_a_task_does_not_list_is_told(rover: Path) -> None:
+    path = rover.with_suffix(".essentials.toml")
+    path.write_text("[task.Report]\nskills = { TakePicture = {} }\n")
+    text = {part.file: part for part in check_vehicle(str(rover))}[path.name].text
+    assert "TakePicture does not fit Report, which does not list it" in text
