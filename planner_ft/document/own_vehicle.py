@@ -64,6 +64,7 @@ SLOTS = (
 )
 """What sentences of NAME.missions.toml can say of every task, beside its parameters."""
 LIMIT = "Limit"  # stands in NAME.missions.toml for the limits of a command, beside the tasks
+INDENT = 38  # columns before the text of a part
 PATTERNS = (
     *("goto", "hold", "orbit", "square", "lawnmower", "pass", "line", "approach", "follow"),
     *("drift", "rotate", "visual", "sectors", "sweep", "arc"),
@@ -73,7 +74,7 @@ PATTERNS = (
 
 @dataclass(frozen=True)
 class Part:
-    """A file of a vehicle, the commands that it serves, and how it is."""
+    """A file of a vehicle, the commands that it serves, and how it is; a line for each problem."""
 
     file: str
     serves: str
@@ -81,7 +82,9 @@ class Part:
     text: str
 
     def __str__(self) -> str:
-        return f"{self.state:8} {self.file:28} {self.text} ({self.serves})"
+        first, *others = self.text.split("\n")
+        text = [f"{self.state:8} {self.file:28} {first} ({self.serves})", *others]
+        return f"\n{' ' * INDENT}".join(text)
 
 
 def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
@@ -240,7 +243,7 @@ def _templates(vocabulary: Vocabulary) -> tuple[State, str]:
     problems = [str(error) for _template, _drawn, error in checked_templates(vocabulary) if error]
     commands = [one for group in templates(vocabulary, "commands") for one in group]
     if problems:
-        return "wrong", _first(problems)
+        return "wrong", "\n".join(problems)
     if not template_files(vocabulary, "commands"):
         return "missing", "without it, there are no synthetic missions"
     asked = {step.call.name for one in commands for step in one.steps}
@@ -257,7 +260,7 @@ def _mission_set(vocabulary: Vocabulary) -> tuple[State, str]:
         return "missing", f"{', '.join(absent)}: commands with their plans, written by people"
     reports = [validate_file(path, vocabulary, "mission", complete=True) for path in paths]
     if problems := [str(problem) for report in reports for problem in report.problems]:
-        return "wrong", _first(problems)
+        return "wrong", "\n".join(problems)
     records = [record for path in paths for record in read_jsonl(path)]
     found = Counter(name for one in records for name in plan_names("mission", one["expected"]))
     text = f"{len(records)} commands" + _unused(vocabulary, "none has", found)
@@ -270,7 +273,3 @@ def _unused(vocabulary: Vocabulary, words: str, used: Iterable[str]) -> str:
     """The tasks beside those used; the transit follows from the rules."""
     titles = [title for title in vocabulary.task if title not in {*used, vocabulary.transit}]
     return f"; {words} {', '.join(titles)}" if titles else ""
-
-
-def _first(problems: list[str]) -> str:
-    return problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
