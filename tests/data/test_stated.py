@@ -42,6 +42,13 @@ def test_a_value_is_said_by_the_prompt_or_by_the_task() -> None:
     assert problem.startswith("skill_sequence[1] StationKeep, time: 40 s does not follow from")
 
 
+def test_a_telegram_may_leave_articles_out() -> None:
+    camera: Skill = ("SetStreamRecording", {"sensor_id": "camera on the boom", "enable": True})
+    assert problems("Hold 30 s with camera on boom.", [hold(30), camera]) == []
+    (problem,) = problems("Hold 30 s with camera on mast.", [hold(30), camera])
+    assert "'boom' of 'camera on the boom' not in" in problem
+
+
 def test_waypoints_and_three_turns_and_more_are_computed() -> None:
     assert problems("Go round it.", [("GoToXY", {"x": 3, "y": 4})]) == []
     assert problems("Look round.", [turn(10)], [turn(130)], [turn(250)]) == []
@@ -131,7 +138,7 @@ SAID = "Turn 40 degrees, hold 30 s at [3, 4] by the red buoy and Sierra 2."
         (
             ["red buoy", "a pier"],
             Parameter("it", "texts"),
-            ["'a', 'pier' of 'a pier' not in there", "'a pier' begins with an article"],
+            ["'pier' of 'a pier' not in there", "'a pier' begins with an article"],
         ),
     ],
 )
