@@ -45,8 +45,8 @@ def sample_missions(
     """Synthetic mission samples of a vehicle (usv unless told otherwise), endless when `count` is
     None; the same seed gives the same samples.
 
-    A record is {"id", "family", "prompt", "expected", "tags"}; `family` names the subject of the
-    template. Raises PlannerError for a vehicle without command templates.
+    A record is {"id", "family", "prompt", "expected"}, with {"tags"} where no task fits; `family`
+    names the subject of the template. Raises PlannerError for a vehicle without command templates.
     """
     for record, _beside in missions_with_skills(seed, count, vocabulary or load_vocabulary()):
         yield record
@@ -119,7 +119,8 @@ class MissionSampler:
             "family": f"synthetic-{made[0].subject}",
             "prompt": plain(noisy(command.text, rng, keep=literal, shout=shout)),
             "expected": command.expected,
-            "tags": [] if tasks else ["rule.empty"],
+            # Without the key: a list of tags says that none but these holds.
+            **({} if tasks else {"tags": ["rule.empty"]}),
         }
         return record, command.beside
 
