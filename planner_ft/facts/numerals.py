@@ -166,8 +166,12 @@ class Row:
         if first in MIXED:
             return MIXED[first], index + 2
         place = index + 1 + (first in ("a", "one"))
+        behind = self.word(place + 1)
         # "Nine minutes and half an hour" are two, and "a third one" is a thing.
-        if self.word(place) not in FRACTIONS or self.word(place + 1) in ("a", "an", "one"):
+        if self.word(place) not in FRACTIONS or behind in ("a", "an", "one"):
+            return nothing
+        # So are "80 seconds and a quarter of an hour".
+        if behind == "of" and self.word(place + 2) in ("a", "an") and self.unit(place + 3)[0]:
             return nothing
         return FRACTIONS[self.word(place)], place + 1
 

@@ -73,7 +73,8 @@ def sums(numbers: Iterable[Number], unit: str | None) -> Iterator[tuple[Number, 
             joined = unit == second.unit == "s" and gap <= 1 and first.said > 0 and second.said > 0
             whole = joined and first.factor > second.factor and second.value < first.factor
             rank = max(first.rank, second.rank) // REREAD * REREAD
-            yield Number(value, rank, first.start, second.end, unit), whole
+            # In "hovr five seconds" the five seconds stand beside "hour five seconds".
+            yield Number(value, rank, first.start, second.end, unit), whole and not rank
 
 
 def pairs(numbers: Iterable[Number], most: int) -> Iterator[tuple[Number, Number]]:

@@ -164,6 +164,8 @@ VALUES = """
     for a minute and half a metre | m | 0.5
     2:30 | s | 150 9000
     from 11:10 to 11:30 | s | 670 690 1200 40200 41400
+    hold 80 s and a quarter of an hour | s | 80 900
+    hovr five seconds | s | 5 3600 3605
     from 23:50 to 00:20 | s | 20 1200 1430 1800 85800
     11:10 ......... 11:30 | s | 670 690 40200 41400
     11:10 .......... 11:30 | s | 670 690 40200 41400
