@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from planner_ft.facts import words as lists
+from planner_ft.facts.clock import TIME, read_times
 from planner_ft.facts.numerals import AND, NUMERALS, Row
 from planner_ft.facts.together import AS_BEFORE, BARE, REREAD, WRITTEN, Number, sums, with_units
 from planner_ft.facts.units import base_of, named
@@ -15,11 +16,8 @@ from planner_ft.facts.words import SMALL, UNITS, WORDS, is_known
 THOROUGH = 6000
 """Characters of a text whose misspelt words are put right; what follows is read as it stands."""
 CHOICES = range(2)  # words that a misspelt one can be, and that are tried
-DAY = 86400
 MOST_TIMES = 5  # times that a number is as large as another one, at most, to be in its unit
 
-_TIME = re.compile(r"(?<![\d:])(\d{1,3}):([0-5]\d)(?![\d:])")
-_BETWEEN_TIMES = re.compile(r"\D{1,9}")
 _RARE = re.compile(
     r"[ -](?:of )?(?:an? )?(cable)s?(?:[ -]lengths?)?\b|[ -](point)s?(?: of the compass)?,?"
     r" (?:further |more )?(?:to (?:the )?(?:starboard|port|left|right)|of the compass"
@@ -153,18 +151,6 @@ def _every(row: Row) -> list[Number]:
     return with_units(row.text, found)
 
 
-def read_times(text: str) -> Iterator[Number]:
-    """ "2:30" as minutes or hours; "from 11:10 to 11:30" as their difference, over midnight too."""
-    times = list(_TIME.finditer(text))
-    for one, two in itertools.zip_longest(times, times[1:]):
-        first = 60 * int(one[1]) + int(one[2])
-        for seconds in (first, 60 * first):
-            yield Number(seconds, WRITTEN, one.start(), one.end(), "s")
-        if two and _BETWEEN_TIMES.fullmatch(text, one.end(), two.start()):
-            seconds = (60 * int(two[1]) + int(two[2]) - first) * 60 % DAY
-            yield Number(seconds, WRITTEN, one.start(), two.end(), "s", seconds)
-
-
 def _at(row: Row, index: int) -> Iterator[tuple[Number, int]]:
     """The numbers that begin at a token, the plain one first, each with the index behind it."""
     sign = _sign(row, index)
@@ -201,7 +187,7 @@ def _is_by_axes(text: str, place: int) -> bool:
 
 def _is_of_time(text: str, number: Number) -> bool:
     """Whether figures are the hours or minutes of "14:30", which are no values by themselves."""
-    times = _TIME.finditer(text, max(0, number.start - 4), number.stop + 4)
+    times = TIME.finditer(text, max(0, number.start - 4), number.stop + 4)
     return any(time.start() <= number.start < time.end() for time in times)
 
 

@@ -164,6 +164,11 @@ VALUES = """
     for a minute and half a metre | m | 0.5
     2:30 | s | 150 9000
     from 11:10 to 11:30 | s | 670 690 1200 40200 41400
+    hold from half past eight to nine | s | 8 9 1800
+    noon to half past twelve | s | 12 1800
+    quarter to twelve till ten past one | s | 10 12 5100
+    between 2350 and 0010 on station | s | 10 1200 2350
+    from eight to nine | s | 8 9
     hold 80 s and a quarter of an hour | s | 80 900
     hovr five seconds | s | 5 3600 3605
     from 23:50 to 00:20 | s | 20 1200 1430 1800 85800

@@ -31,7 +31,7 @@ from planner_ft.document.warnings.case import (
 )
 from planner_ft.document.warnings.data import asked_skills
 from planner_ft.facts import is_place, near
-from planner_ft.facts.numbers import read_times
+from planner_ft.facts.clock import read_times
 from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.planning.shapes import face_of

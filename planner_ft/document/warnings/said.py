@@ -14,8 +14,8 @@ from planner_ft.document.language import ends_with
 from planner_ft.document.warnings.case import LONGER, Case, Warning, lost, quoted, warning
 from planner_ft.document.warnings.limits import AXIS, is_lost
 from planner_ft.facts import Number, near
+from planner_ft.facts.clock import read_times
 from planner_ft.facts.inputs import SIDES
-from planner_ft.facts.numbers import read_times
 from planner_ft.facts.places import is_course, read_bearings, read_positions, rows_of_sizes
 from planner_ft.facts.together import REREAD, neighbours
 from planner_ft.vocabulary import Vocabulary
