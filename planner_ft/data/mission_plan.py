@@ -16,6 +16,7 @@ from planner_ft.data.targets import Target
 from planner_ft.data.task.phrasebook import spaced
 from planner_ft.data.templates.grammar import Slot, choose, fail, parse_text
 from planner_ft.facts.geometry import tidy
+from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Task, Vocabulary
 from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence, slots, written
 from planner_ft.vocabulary.plans import TASK_KEYS
@@ -50,11 +51,14 @@ class Planned:
 
 def label(intents: Iterable[Intent], vocabulary: Vocabulary) -> list[Planned]:
     """The tasks for intents in the order of execution, by the labelling rules: a search before the
-    first use of what has no position, a transit to where a task is performed.
+    first use of what has no position, a transit to where a task is performed. Raises PlannerError.
     """
     intents = list(intents)
     locate, transit = vocabulary.task[vocabulary.locate], vocabulary.task[vocabulary.transit]
-    described = next(item.name for item in locate.parameters if item.type == "text")
+    described = next((item.name for item in locate.parameters if item.type == "text"), None)
+    if described is None:
+        needs = "says what is searched for and needs a parameter of type text"
+        raise PlannerError(f"task {locate.title}: [vehicle] locate {needs}")
     there = str(transit.position_parameter)
     plan: list[Planned] = []
     located: set[str] = set()

@@ -174,10 +174,6 @@ def reference_problems(vocabulary: Vocabulary) -> Iterator[str]:
     if transit and transit.position_parameter is None:
         needs = "brings the vehicle to a place and needs a parameter of type position"
         yield f"task {transit.title}: {needs}"
-    locate = vocabulary.task.get(vocabulary.locate)
-    if locate and not any(one.type == "text" for one in locate.parameters):
-        needs = "says what is searched for and needs a parameter of type text"
-        yield f"task {locate.title}: [vehicle] locate {needs}"
     owners: list[Task | Skill] = [*vocabulary.tasks, *vocabulary.skills]
     for name, owner in zip(itertools.chain(*names.values()), owners, strict=True):
         kind = "task" if hasattr(owner, "title") else "skill"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -100,6 +101,14 @@ def test_names_that_are_in_no_definition_are_told_file_by_file(rover: Path) -> N
         part = found[f"my_rover.{ending}.toml"]
         assert part.state == "wrong" and f"{table}: the definition has no such name" in part.text
     assert found["my_rover.motion.toml"].state == "ready"
+
+
+def test_a_search_for_nothing_is_named(rover: Path) -> None:
+    text = re.sub(r'locate = "\w+"', 'locate = "Report"', rover.read_text())
+    rover.write_text(text)
+    parts = {part.file: part for part in check_vehicle(str(rover))}
+    commands = parts["my_rover.commands.jsonl"]
+    assert commands.state == "wrong" and "needs a parameter of type text" in commands.text
 
 
 def test_a_pattern_that_means_nothing_is_told(rover: Path) -> None:

@@ -345,6 +345,5 @@ def _values(step: Entry, known: Vocabulary) -> Iterator[Value]:
 
 
 def _shown(value: Any, parameter: Parameter) -> str:
-    if not is_number(value):
-        return str(value)[:60]
-    return f"{value:g} {parameter.unit}" if parameter.unit not in (None, "count") else f"{value:g}"
+    unit = "" if parameter.unit in (None, "count") else f" {parameter.unit}"
+    return f"{value:g}{unit}" if is_number(value) else str(value)[:60]
