@@ -16,6 +16,7 @@ things.txt.
 
 import functools
 import itertools
+import math
 import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
@@ -35,8 +36,11 @@ ORDERS = words(TABLE["orders"])
 _PARTS = {name: words(text) for name, text in TABLE["parts"].items()}
 FALLBACK: Mapping[str, Sequence[str] | Mapping[str, float]] = {**TABLE["lists"], **_PARTS}
 Weighted = tuple[Sequence[str], Sequence[float] | None]
+Bounds = Sequence[tuple[float, float]]
+"""The least and the greatest x, and y."""
 SPAN = 220
 """Metres from home within which most positions lie."""
+ANYWHERE: Bounds = ((-math.inf, math.inf),) * 2
 
 
 def made_up_name(rng: Random) -> str:
@@ -252,21 +256,25 @@ def draw_rotation(rng: Random, high: float) -> float:
     return size if rng.random() < 0.5 else -size
 
 
-def draw_point(rng: Random) -> Point:
-    """A position, mostly with whole coordinates near home."""
+def draw_point(rng: Random, bounds: Bounds = ANYWHERE) -> Point:
+    """A position, mostly with whole coordinates near home, and within the bounds."""
     span = SPAN if rng.random() < 0.85 else pick((1200, 30), rng)
     coordinates: list[float] = []
-    for _ in range(2):
-        number, roll = rng.randrange(-span, span + 1), rng.random()
+    for low, high in bounds:
+        number: float = rng.randrange(-span, span + 1)
+        roll = rng.random()
         number = 5 * round(number / 5) if roll < 0.45 else number
         part = pick((0.5, 0.25, 0.1, 0.75, -0.4), rng) if roll >= 0.93 else 0
+        if not low <= number + part <= high:
+            least, most = max(low, min(high, 0) - SPAN), min(high, max(low, 0) + SPAN)
+            number, part = min(high, max(low, round(rng.uniform(least, most)))), 0
         coordinates.append(number + part)
     return point(*coordinates)
 
 
-def draw_position(rng: Random) -> Value:
+def draw_position(rng: Random, bounds: Bounds = ANYWHERE) -> Value:
     """A position as it is said."""
-    return position(draw_point(rng), rng)
+    return position(draw_point(rng, bounds), rng)
 
 
 def draw_polygon(rng: Random) -> list[Point]:

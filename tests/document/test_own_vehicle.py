@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
 from planner_ft.simulation.checking import check_simulation
 from planner_ft.support.errors import PlannerError
+from planner_ft.vocabulary import load_vocabulary
 
 OPTIONAL = {f"my_rover.{name}.toml" for name in ("phrases", "logic", "simulation")}
 
@@ -49,6 +51,16 @@ def test_what_is_wrong_and_what_is_lacking_is_named(rover: Path) -> None:
     assert parts["my_rover.motion.toml"].state == "missing"
     assert "name must be a text" in parts["my_rover.vehicle.toml"].text
     assert "my_rover.commands.jsonl:2" in parts["my_rover.commands.jsonl"].text
+
+
+def test_samples_stay_within_the_bounds_of_the_skill_that_goes(rover: Path) -> None:
+    """Also where the place that is not known yet is out of bounds, and one end has no bound."""
+    text, wide = rover.read_text(), "minimum = -100000, maximum = 100000"
+    for x, y in (("minimum = -60, maximum = 60",) * 2, ("minimum = 300", "maximum = 60")):
+        rover.write_text(text.replace(wide, x, 1).replace(wide, y, 1))
+        assert states(rover)["my_rover.commands.jsonl"] == "ready"
+        samples = sample_tasks(load_vocabulary(str(rover)), 0, 100, "train")
+        assert len(list(samples)) == 100
 
 
 def test_a_slot_that_nothing_fills_is_named(rover: Path) -> None:

@@ -146,7 +146,7 @@ class _Binder:
             if argument.kind == "slot":
                 own = name != XY
                 draws = self.book.skills[call.name].draws
-                draw = draws[name] if own else value_draw("Offset", "point", "P")
+                draw = draws[name] if own else self.book.place
                 several = own and skill.by_name[name].type == "texts"
                 self._use(str(argument.value), draw, "" if several else f"{call.name}.{name}")
             arguments.append(replace(argument, name=name))
@@ -168,7 +168,9 @@ class _Binder:
                 argument = replace(argument, kind="literal")
             elif argument.kind == "slot":
                 joint = role in JOINT.get(call.name, ())
-                draw = _no_draw if joint else value_draw(call.name, role, grammar.base_of(value))
+                draw = _no_draw if joint else self.book.place
+                if not joint and role != "point":
+                    draw = value_draw(call.name, role, grammar.base_of(value))
                 self._use(value, draw, shape.roles.get(role, ""))
             arguments.append(replace(argument, name=role))
         given = {argument.name for argument in arguments}

@@ -24,7 +24,6 @@ from planner_ft.data.templates import grammar, render
 from planner_ft.data.templates.grammar import Argument, Call, Slot, Step, all_slots
 from planner_ft.data.templates.records import Template, read_templates
 from planner_ft.data.templates.render import PIECE, joined
-from planner_ft.data.values import draw_position
 from planner_ft.vocabulary.definition import Role
 
 WORDS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))
@@ -50,7 +49,7 @@ def _clause(
 def skill_clause(book: Phrasebook, name: str, phrase: str, ing: bool) -> Bound:
     """The phrase for this skill."""
     entry = book.skills[name]
-    bound = _clause(book, phrase, ing, {XY: draw_position, **entry.draws}, name)
+    bound = _clause(book, phrase, ing, {XY: book.place, **entry.draws}, name)
     bound.often = {key: entry.often.get(key, 1.0) for key in bound.draws}
     for parameter in entry.skill.parameters:
         if parameter.type == "texts":

@@ -43,8 +43,9 @@ class Context:
         if task.require_any and not any(name in self.values for name in task.require_any):
             self.require(pick(task.require_any, rng))
         place, share = task.position_parameter, UNRESOLVED / (1 if task.arrival == "self" else 2)
-        if place in self.values and rng.random() < share:
-            self.values[place] = Value(list(book.vocabulary.unresolved), "", "", "")
+        unknown = list(book.vocabulary.unresolved)
+        if place in self.values and rng.random() < share and book.within(unknown):
+            self.values[place] = Value(unknown, "", "", "")
 
     def require(self, name: str) -> Value:
         """The task parameter's value, drawn now if the task has none yet."""

@@ -17,11 +17,21 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterator, Sequence
+from random import Random
 from typing import Any
 
-from planner_ft.data.numbers import Draw
+from planner_ft.data.numbers import Draw, Value
 from planner_ft.data.templates.grammar import Nodes, TemplateError, all_slots, parse_text
-from planner_ft.data.values import FALLBACK, MADE_UP, WordLists, number_space, value_space
+from planner_ft.data.values import (
+    ANYWHERE,
+    FALLBACK,
+    MADE_UP,
+    Bounds,
+    WordLists,
+    draw_position,
+    number_space,
+    value_space,
+)
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json
 from planner_ft.vocabulary.definition import PHRASES, ROLES, Parameter, Skill, Task, Vocabulary
@@ -66,7 +76,7 @@ class SkillEntry:
     """The phrases and parameter spaces of one skill."""
 
     def __init__(self, skill: Skill, config: dict[str, Any], book: Phrasebook) -> None:
-        self.skill, self.draws = skill, _draws(skill, config, book.lexicon)
+        self.skill, self.draws = skill, _draws(skill, config, book)
         shares, items = config.get("often", {}), skill.parameters
         self.often = {one.name: 1.0 if one.required else shares.get(one.name, 0.5) for one in items}
         """How often an optional part of a phrase stands, by parameter."""
@@ -93,7 +103,7 @@ class TaskEntry:
     """The phrases, links and parameter spaces of one task."""
 
     def __init__(self, task: Task, config: dict[str, Any], book: Phrasebook) -> None:
-        self.config, self.draws = config, _draws(task, config, book.lexicon)
+        self.config, self.draws = config, _draws(task, config, book)
         unseen = config.get("lead_unseen") if book.unseen else None
         self.lead: list[str] = unseen or config.get("lead", [])
         self.phrases: list[str] = [] if book.unseen else config.get("phrases", [])
@@ -119,6 +129,7 @@ class Phrasebook:
         self.vocabulary, self.unseen, raw = vocabulary, unseen, vocabulary.phrases
         _check_phrases(vocabulary)
         self.lexicon = WordLists(raw.get("words", {}))
+        self.bounds = _bounds(vocabulary)
         skills, tasks = raw.get("skill", {}), raw.get("task", {})
         self.skills = {
             name: SkillEntry(skill, skills.get(name, {}), self)
@@ -139,6 +150,14 @@ class Phrasebook:
         self.roles = {role: [one.name for one in vocabulary.skills_in_role(role)] for role in ROLES}
         self.verbs = {"run", *_VERB.findall(compact_json(raw))}
 
+    def place(self, rng: Random) -> Value:
+        """A position to which the vehicle can go, as it is said."""
+        return draw_position(rng, self.bounds)
+
+    def within(self, at: Sequence[float]) -> bool:
+        """Whether the vehicle can go to this position."""
+        return all(low <= one <= high for one, (low, high) in zip(at, self.bounds, strict=True))
+
     def pattern(self, name: str, title: str) -> Sequence[str]:
         """Phrases of a movement of several steps, the task's own ones twice as often."""
         general = self.patterns.get(name, {})
@@ -154,10 +173,26 @@ def phrasebook(vocabulary: Vocabulary, *, unseen: bool) -> Phrasebook:
     return Phrasebook(vocabulary, unseen=unseen)
 
 
-def _draws(owner: Skill | Task, config: dict[str, Any], lexicon: WordLists) -> dict[str, Draw]:
+def _draws(owner: Skill | Task, config: dict[str, Any], book: Phrasebook) -> dict[str, Draw]:
     spaces = config.get("values", {})
-    items = owner.parameters
-    return {item.name: value_space(item, spaces.get(item.name, {}), lexicon) for item in items}
+    return {
+        item.name: book.place
+        if item.type == "position"
+        else value_space(item, spaces.get(item.name, {}), book.lexicon)
+        for item in owner.parameters
+    }
+
+
+def _bounds(vocabulary: Vocabulary) -> Bounds:
+    """The coordinates that every skill that goes to a position takes; all where none is left."""
+    known = [skill.by_name for skill in vocabulary.skills if skill.motion == "goto"]
+    bounds = list[tuple[float, float]]()
+    for axis, (least, most) in zip("xy", ANYWHERE, strict=True):
+        ends = [(one[axis].minimum, one[axis].maximum) for one in known if axis in one]
+        low = max((low for low, _high in ends if low is not None), default=least)
+        high = min((high for _low, high in ends if high is not None), default=most)
+        bounds.append((low, high) if low <= high else (least, most))
+    return bounds
 
 
 def _values(phrase: str) -> list[str]:

@@ -138,7 +138,6 @@ DRAWS: Mapping[tuple[str, str], Draw] = {
     ("Grid", "compass"): lambda rng: pick(
         (Value("y", "north-south"), Value("x", "east-west")), rng
     ),
-    ("any", "point"): lambda rng: numbers.position(values.draw_point(rng), rng),
     ("any", "radius"): lambda rng: numbers.length(values.draw_number(rng, 4, 60), rng),
     ("any", "length"): lambda rng: numbers.length(values.draw_number(rng, 5, 150), rng),
     ("any", "direction"): direction,
@@ -295,6 +294,8 @@ class Plan:
         except KeyError as error:
             raise ValueError(f"{call.name} has no {error}") from None
         if shape.motion == "goto":
+            if not all(map(self.book.within, found)):
+                raise ValueError(f"{call.name} leaves the bounds of {name}")
             return [(name, {"x": x, "y": y}) for x, y in found]
         key = self.book.skills[name].skill.parameters[0].name
         return [(name, {key: value}) for value in found]
