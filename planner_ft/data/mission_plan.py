@@ -7,6 +7,7 @@ NAME.missions.toml; so both hold for any vehicle.
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
@@ -16,8 +17,10 @@ from planner_ft.data.targets import Target
 from planner_ft.data.task.phrasebook import spaced
 from planner_ft.data.templates.grammar import Slot, choose, fail, parse_text
 from planner_ft.facts.geometry import tidy
+from planner_ft.facts.units import named
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary import Task, Vocabulary
+from planner_ft.vocabulary.definition import MISSIONS
 from planner_ft.vocabulary.limits import load_limits, prompt_sentence, sentence, slots, written
 from planner_ft.vocabulary.plans import TASK_KEYS
 
@@ -217,6 +220,8 @@ def _suits(clause: Drawing, planned: Planned, skill: str, scope: str, covered: b
 
 
 _parsed = functools.lru_cache(maxsize=1024)(parse_text)
+_MEASURED = re.compile(r"\{(\w+)\}[ -]?(?!in\b|a\b)([^\s\\{}\[\]().,;|]+)")
+"""A slot and the word behind it, which may be a unit."""
 
 
 def say(sources: Iterable[str], given: Mapping[str, str]) -> str | None:
@@ -228,12 +233,27 @@ def say(sources: Iterable[str], given: Mapping[str, str]) -> str | None:
     return None
 
 
+def _prompt_problems(vocabulary: Vocabulary, config: Mapping[str, Any]) -> Iterator[str]:
+    """Values that a task prompt says in another unit than the parameter's."""
+    for task in vocabulary.tasks:
+        prompts = config.get("task", {}).get(task.title, {}).get("prompt", ())
+        for name, word in _MEASURED.findall(" ".join(prompts)):
+            unit = task.by_name[name].unit if name in task.by_name else None
+            own, said = named(unit), named(word)
+            if own and said and own.base == said.base and own != said:
+                yield f"[task.{task.title}] prompt: {name} is in {unit}, not {word}; correct it"
+
+
 class PlanTexts:
-    """Task prompts, assumptions and constraints of a vehicle's plans."""
+    """Task prompts, assumptions and constraints of a vehicle's plans. Raises PlannerError where a
+    prompt says a value in another unit than the parameter's.
+    """
 
     def __init__(self, vocabulary: Vocabulary, config: Mapping[str, Any]) -> None:
         self.vocabulary, self.config = vocabulary, config
         self.tasks: Mapping[str, Any] = config.get("task", {})
+        if problem := next(_prompt_problems(vocabulary, config), None):
+            raise PlannerError(f"{vocabulary.name}{MISSIONS}: {problem}")
 
     def plan(self, plan: list[Planned], notes: list[str], taken: list[str]) -> dict[str, Any]:
         """The plan as a record holds it, with the command's own remarks."""
@@ -250,7 +270,7 @@ class PlanTexts:
         return str(entry.get("excluded", f"{spaced(title).capitalize()} is not done."))
 
     def task_prompt(self, planned: Planned) -> str:
-        """The intent of one task in one sentence."""
+        """The intent of one task in one sentence; without one of its own it says the values."""
         if planned.intent.home:
             sources = self.config.get("home", {}).get("prompt", ["Return home."])
         else:
@@ -258,8 +278,10 @@ class PlanTexts:
         text = say(sources, self._given(planned))
         if text is not None:
             return text
+        given = {} if sources else self._given(planned)
+        said = [f"{spaced(name)} {given[name]}, " for name in planned.parameters if name in given]
         place = planned.intent.target.place if planned.intent.target else "where the vehicle is"
-        return f"{spaced(planned.task.title).capitalize()}: {place}."
+        return f"{spaced(planned.task.title).capitalize()}: {''.join(said)}{place}."
 
     def _given(self, planned: Planned) -> dict[str, str]:
         """What a sentence can say of a task."""

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from planner_ft.data.missions import sample_missions
 from planner_ft.data.task.sampler import sample_tasks
 from planner_ft.document.own_vehicle import check_vehicle, new_vehicle
 from planner_ft.simulation.checking import check_simulation
@@ -61,6 +62,31 @@ def test_samples_stay_within_the_bounds_of_the_skill_that_goes(rover: Path) -> N
         assert states(rover)["my_rover.commands.jsonl"] == "ready"
         samples = sample_tasks(load_vocabulary(str(rover)), 0, 100, "train")
         assert len(list(samples)) == 100
+
+
+def test_a_task_prompt_in_another_unit_is_named(rover: Path) -> None:
+    path = rover.with_suffix(".missions.toml")
+    path.write_text(path.read_text().replace("{duration} seconds", "{duration} minutes"))
+    parts = {part.file: part for part in check_vehicle(str(rover))}
+    problem = "prompt: duration is in s, not minutes"
+    assert problem in parts["my_rover.commands.jsonl"].text
+    with pytest.raises(PlannerError, match=r"my_rover\.missions\.toml: \[task\.Wait\]"):
+        list(sample_missions(0, 100, load_vocabulary(str(rover))))
+
+
+def test_a_task_without_a_prompt_says_its_values(rover: Path) -> None:
+    path, own = (
+        rover.with_suffix(".missions.toml"),
+        'prompt = ["Wait {at}[ for {duration} seconds]."]\n',
+    )
+    assert own in path.read_text()
+    path.write_text(path.read_text().replace(own, ""))
+    made = list(sample_missions(0, 100, load_vocabulary(str(rover))))
+    tasks = [task for one in made for task in one["expected"]["tasks"] if task["title"] == "Wait"]
+    timed = [task for task in tasks if "duration" in task["parameters"]]
+    assert timed and all(
+        f"duration {task['parameters']['duration']}" in task["task_prompt"] for task in timed
+    )
 
 
 def test_a_slot_that_nothing_fills_is_named(rover: Path) -> None:
