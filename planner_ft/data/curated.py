@@ -87,7 +87,9 @@ def curated_splits(
         for kind in report.counts.keys() - {"mission record"}
     ]
     splits = {split: read_jsonl(path) for split, path in paths.items()} if not problems else {}
-    lists = f"; plannerft validate --complete {source}/*.jsonl lists them"
+    own = vocabulary.source != load_vocabulary().source
+    of = f" --vocabulary {vocabulary.source}" if own else ""
+    lists = f"; plannerft validate --complete{of} {source}/*.jsonl lists them"
     if not problems and audit:
         problems = [f"{source}: {problem}" for problem in coverage_problems(splits, vocabulary)]
         lists = ""

@@ -387,3 +387,13 @@ def test_a_card_names_the_options_that_its_set_was_made_with(tmp_path: Path, sou
 def test_a_synthetic_set_belongs_to_the_mission_level(tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="--synthetic 5: it belongs to the mission level"):
         GenerationSettings(level="task", out=tmp_path, synthetic=5)
+
+
+def test_the_command_that_lists_the_problems_names_the_vehicle(tmp_path: Path) -> None:
+    new_vehicle("rover", tmp_path / "rover")
+    source = str(tmp_path / "rover" / "rover.toml")
+    path = tmp_path / "rover" / "mission" / "train.jsonl"
+    path.write_text(path.read_text().replace('"tags"', '"tagz"'))
+    listed = f"validate --complete --vocabulary {source} {tmp_path}/rover/mission"
+    with pytest.raises(PlannerError, match=re.escape(listed)):
+        generate(GenerationSettings("mission", tmp_path, vocabulary=source))
