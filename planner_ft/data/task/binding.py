@@ -168,7 +168,7 @@ class _Binder:
                 argument = replace(argument, kind="literal")
             elif argument.kind == "slot":
                 joint = role in JOINT.get(call.name, ())
-                draw = _no_draw if joint else self.book.place
+                draw: Draw = _no_draw if joint else self.book.place
                 if not joint and role != "point":
                     draw = value_draw(call.name, role, grammar.base_of(value))
                 self._use(value, draw, shape.roles.get(role, ""))
