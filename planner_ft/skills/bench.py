@@ -38,6 +38,11 @@ from planner_ft.support.tables import Table, TableRow, csv_table, figure, markdo
 from planner_ft.support.terminal import Report
 from planner_ft.vocabulary.definition import Motion
 
+KIND = "skill bench"
+FILES = {MANIFEST, "table.md", "episodes.json"} | {
+    f"{name}.csv" for name in ("classes", "conditions", "goto", "hold")
+}
+"""What a bench writes, the manifest first: it tells whose folder it is."""
 MOST = 500
 ROUNDING = 1.5
 COLUMNS = ("success % ↑", "collision % ↓", "lost % ↓", "stand-off m ↓", "steps")
@@ -76,9 +81,23 @@ class SkillBench:
             raise PlannerError(f"{self.skill}: must be one of {', '.join(SKILLS)}")
         if not 1 <= self.episodes <= MOST:
             raise PlannerError(f"--episodes {self.episodes}: must be from 1 to {MOST}")
-        if self.out and self.out.exists() and any(self.out.iterdir()) and not self.overwrite:
+        if not (self.out and self.out.is_dir()):
+            return
+        found = {path.name for path in self.out.iterdir() if not path.name.startswith(".")}
+        if found and not self.overwrite:
             hint = "give --overwrite to replace it, or another folder"
             raise PlannerError(f"--out {self.out}: holds files; {hint}")
+        if foreign := sorted(found - FILES) or (
+            found and not _is_bench(self.out) and sorted(found)
+        ):
+            problem = f"holds {foreign[0]}, which is not of a bench of a skill"
+            raise PlannerError(f"--out {self.out}: {problem}; give another folder")
+
+
+def _is_bench(folder: Path) -> bool:
+    """Whether the manifest in a folder is a bench's."""
+    manifest = read_json(folder / MANIFEST) if (folder / MANIFEST).is_file() else None
+    return isinstance(manifest, dict) and manifest.get("kind") == KIND
 
 
 def bench_skill(request: SkillBench, report: Report) -> list[Table]:
@@ -209,6 +228,13 @@ def _row(name: str, episodes: Sequence[Episode], seed: int) -> TableRow:
 def _write(
     request: SkillBench, out: Path, policies: list[Policy], tables: list[Table], played: Played
 ) -> None:
+    names = ["shipped", *map(str, request.policies)]
+    digests = {name: sha256_file(one.path) for name, one in zip(names, policies, strict=True)}
+    configuration = {"skill": request.skill, "episodes": request.episodes, "policies": digests}
+    manifest = build_manifest(KIND, seed=request.seed, configuration=configuration)
+    write_json(out / MANIFEST, manifest)
+    for name in FILES - {MANIFEST}:
+        (out / name).unlink(missing_ok=True)
     write_text(out / "table.md", "\n".join(markdown_table(one) for one in tables))
     for one in tables:
         write_text(out / f"{one.name}.csv", csv_table(one))
@@ -217,11 +243,6 @@ def _write(
         for name, by in played.items()
     }
     write_json(out / "episodes.json", episodes)
-    names = ["shipped", *map(str, request.policies)]
-    digests = {name: sha256_file(one.path) for name, one in zip(names, policies, strict=True)}
-    configuration = {"skill": request.skill, "episodes": request.episodes, "policies": digests}
-    manifest = build_manifest("skill bench", seed=request.seed, configuration=configuration)
-    write_json(out / "manifest.json", manifest)
 
 
 # ----------------------------------- GoToXY and StationKeep, in the simulator of missions

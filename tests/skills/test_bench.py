@@ -86,6 +86,25 @@ def test_a_bench_writes_table_episodes_and_manifest(
         assert name in text
     with pytest.raises(PlannerError, match="holds files; give --overwrite"):
         SkillBench("survey", episodes=1, out=out)
+    assert SkillBench("goto", out=out, overwrite=True)
+
+
+@pytest.mark.parametrize(
+    ("files", "named"),
+    [
+        ({"policy.safetensors": "", "manifest.json": '{"kind": "skill"}'}, "policy.safetensors"),
+        ({"manifest.json": '{"kind": "simulation"}', "table.md": ""}, "manifest.json"),
+        ({"table.md": "mine"}, "table.md"),
+        ({"thesis.txt": "mine", "manifest.json": '{"kind": "skill bench"}'}, "thesis.txt"),
+    ],
+)
+def test_a_folder_of_other_files_is_never_replaced(
+    files: dict[str, str], named: str, tmp_path: Path
+) -> None:
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(PlannerError, match=f"holds {named}, which is not of a bench"):
+        SkillBench("goto", out=tmp_path, overwrite=True)
 
 
 def test_bad_numbers_are_refused() -> None:
