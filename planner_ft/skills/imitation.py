@@ -65,7 +65,8 @@ def train(
     task = Task(rounding=settings.rounding, lost=settings.lost, **WIDER)
     world = Survey(task, settings.environments, tracker, drawn)
     memory = pupil.memory = Memory(settings.environments)
-    kept = Checkpoint(folder, settings, random, pupil, optimizer, schedule, resume=resume)
+    parts = pupil, optimizer, schedule
+    kept = Checkpoint(folder, settings, random, *parts, resume=resume, goto=tracker)
     seen, wanted = torch.zeros(0, 132), torch.zeros(0, 2)
     if kept.done:
         world.restore(kept.more["world"])

@@ -4,6 +4,7 @@ same losses.
 """
 
 import functools
+import hashlib
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
@@ -115,17 +116,34 @@ def read_policy(skill: str, folder: Path | None = None) -> Policy:
     return Policy(skill, about["recipe"], module, json.loads(about["vessel"]), path)
 
 
+def check_same(path: Path, own: Mapping[str, Any], kept: Mapping[str, Any]) -> None:
+    """Raise PlannerError when what was `kept` in a file was made with other settings."""
+    if different := [name for name, value in own.items() if kept.get(name) != value]:
+        hint = "give the same settings, or another --out"
+        raise PlannerError(f"{path}: was made with another {different[0]}; {hint}")
+
+
 class Checkpoint:
     """The state of a training in a folder: its settings (a dataclass with `iterations`), generator
-    and `parts`, which have `state_dict` and `load_state_dict`. `done` counts iterations, `log` has
-    a line for each, `more` is what the parts do not hold, as it was when a killed one was saved.
+    and `parts`, which have `state_dict` and `load_state_dict`. `goto` is the policy that drives in
+    it, if any. `done` counts iterations, `log` has a line for each, `more` is what the parts do not
+    hold, as it was when a killed one was saved.
     """
 
     def __init__(
-        self, folder: Path, settings: Any, random: torch.Generator, *parts: Any, resume: bool
+        self,
+        folder: Path,
+        settings: Any,
+        random: torch.Generator,
+        *parts: Any,
+        resume: bool,
+        goto: Module | None = None,
     ) -> None:
         """Take up what was saved, if `resume`. Raises PlannerError for other settings."""
         self.folder, self.settings, self.random, self.parts = folder, settings, random, parts
+        self.own = asdict(settings)
+        if goto is not None:
+            self.own["goto"] = hashlib.sha256(save(goto.state_dict())).hexdigest()
         self.done, self.log = 0, list[dict[str, Any]]()
         self.more: Any = None
         if resume and (folder / STATE).is_file():
@@ -152,7 +170,7 @@ class Checkpoint:
             return
         state = {
             "done": self.done,
-            "settings": asdict(self.settings),
+            "settings": self.own,
             "parts": [part.state_dict() for part in self.parts],
             "random": self.random.get_state(),
             "torch": torch.get_rng_state(),
@@ -166,13 +184,11 @@ class Checkpoint:
     def _restore(self, path: Path) -> None:
         try:
             state = torch.load(path, weights_only=True)
-            own, kept = asdict(self.settings), state["settings"]
+            kept = {"goto": self.own.get("goto"), **state["settings"]}  # earlier ones name no goto
         except (RuntimeError, KeyError, EOFError, OSError) as error:
             problem = f"is no checkpoint ({error})"
             raise PlannerError(f"{path}: {problem}; start without --resume") from None
-        if different := [name for name, value in own.items() if kept.get(name) != value]:
-            hint = "give the same settings, or another --out"
-            raise PlannerError(f"{path}: was made with another {different[0]}; {hint}")
+        check_same(path, self.own, kept)
         for part, values in zip(self.parts, state["parts"], strict=True):
             part.load_state_dict(values)
         self.random.set_state(state["random"])

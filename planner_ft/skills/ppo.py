@@ -149,7 +149,8 @@ def train(
     task = Task(weights=L3 if settings.sampling == "l3" else None).without(settings.without)
     world = Survey(task, settings.environments, tracker, drawn, compiled=True)
     random = torch.Generator().manual_seed(settings.seed)
-    kept = Checkpoint(folder, settings, random, learner.nets, learner.optimizer, resume=resume)
+    parts = learner.nets, learner.optimizer
+    kept = Checkpoint(folder, settings, random, *parts, resume=resume, goto=tracker)
     best: dict[str, Any] = {"reward": -math.inf, "iteration": 0, "weights": {}}
     if kept.done:
         world.restore(kept.more["world"])

@@ -8,10 +8,18 @@ from typing import Any
 
 import torch
 
-from planner_ft.skills.policies import FILES, SKILLS, WEIGHTS, read_policy, write_policy
+from planner_ft.skills.policies import (
+    FILES,
+    MANIFEST,
+    SKILLS,
+    WEIGHTS,
+    check_same,
+    read_policy,
+    write_policy,
+)
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import make_folder
+from planner_ft.support.files import make_folder, read_json, sha256_file
 from planner_ft.support.terminal import Report, under
 
 RECIPES = ("ours", "published")
@@ -95,13 +103,29 @@ def train_skill(request: SkillTraining, report: Report) -> dict[str, Any]:
 
 def train_all(root: Path, report: Report, *, seed: int, resume: bool, overwrite: bool) -> None:
     """Train every skill that ships from nothing, the survey on the new goto, each into its folder
-    of `root`. With `resume`, finished ones stay. Raises PlannerError.
+    of `root`. With `resume`, finished ones stay. Raises PlannerError, for finished ones that were
+    made with another seed, too.
     """
     how: dict[str, Any] = {"seed": seed, "resume": resume, "overwrite": overwrite}
     goto = {"survey": root / "goto"}
-    for request in [SkillTraining(s, root / s, goto=goto.get(s), **how) for s in SKILLS]:
-        if not (resume and (request.out / WEIGHTS).exists()):
-            train_skill(request, under(request.skill, report))
+    requests = [SkillTraining(s, root / s, goto=goto.get(s), **how) for s in SKILLS]
+    undone = [one for one in requests if not (resume and _is_finished(one))]
+    for request in undone:
+        train_skill(request, under(request.skill, report))
+
+
+def _is_finished(request: SkillTraining) -> bool:
+    """Whether its policy is in its folder. Raises PlannerError when it is another one."""
+    path = request.out / MANIFEST
+    if not (path.is_file() and (request.out / WEIGHTS).is_file()):
+        return False
+    manifest = read_json(path)
+    own, kept = asdict(request.settings()), manifest.get("configuration", {})
+    if request.goto:
+        own["goto"] = sha256_file(request.goto / WEIGHTS)
+        kept["goto"] = manifest.get("inputs", {}).get("goto", {}).get("sha256")
+    check_same(path, own, kept)
+    return True
 
 
 def _train(request: SkillTraining, settings: Any, report: Report) -> Any:

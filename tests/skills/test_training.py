@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from safetensors.torch import load_file
 from planner_ft.skills import imitation, policies, tracking, training
 from planner_ft.skills.training import SkillTraining, train_skill
 from planner_ft.support.errors import PlannerError
+from planner_ft.support.files import sha256_file, write_json
 
 TINY: dict[str, dict[str, Any]] = {
     "goto": {"batch": 4, "steps": 6, "window": 3},
@@ -86,6 +88,9 @@ def test_all_skills_are_trained_and_what_is_done_stays(
         if len(begun) == 2:
             raise Killed
         (one.out / "policy.safetensors").touch()
+        inputs = {"goto": {"sha256": sha256_file(tmp_path / "goto" / "policy.safetensors")}}
+        about = {"configuration": asdict(one.settings()), "inputs": inputs}
+        write_json(one.out / "manifest.json", about)
 
     said: list[str] = []
     monkeypatch.setattr(training, "train_skill", train)
@@ -103,6 +108,26 @@ def test_all_skills_are_trained_and_what_is_done_stays(
     assert [one.resume for one in begun] == [False, False, True, True]
     with pytest.raises(PlannerError, match="exclude each other"):
         training.train_all(tmp_path, quiet, seed=3, resume=True, overwrite=True)
+    with pytest.raises(PlannerError, match=r"goto.manifest\.json: was made with another seed"):
+        training.train_all(tmp_path, quiet, seed=77, resume=True, overwrite=False)
+    (tmp_path / "goto" / "policy.safetensors").write_text("another", encoding="utf-8")
+    with pytest.raises(PlannerError, match=r"survey.manifest\.json: was made with another goto"):
+        training.train_all(tmp_path, quiet, resume=True, **settings)
+    assert len(begun) == 4
+
+
+@pytest.mark.parametrize("kind", ["survey", "published"])
+def test_a_survey_goes_on_with_the_same_goto_alone(kind: str, tmp_path: Path) -> None:
+    if kind == "published":
+        pytest.importorskip("torchrl")
+    train_skill(request(tmp_path / "goto", "goto"), quiet)
+    train_skill(request(tmp_path / "survey", kind, goto=tmp_path / "goto"), quiet)
+    with pytest.raises(PlannerError, match="was made with another goto; give the same"):
+        train_skill(request(tmp_path / "survey", kind, resume=True), quiet)
+    state = torch.load(tmp_path / "survey" / "checkpoint.pt", weights_only=True)
+    del state["settings"]["goto"]  # as earlier versions wrote it
+    torch.save(state, tmp_path / "survey" / "checkpoint.pt")
+    train_skill(request(tmp_path / "survey", kind, resume=True), quiet)
 
 
 def test_tracking_learns(tmp_path: Path) -> None:
