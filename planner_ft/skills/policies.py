@@ -6,6 +6,7 @@ same losses.
 import functools
 import hashlib
 import json
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -163,6 +164,9 @@ class Checkpoint:
         one, and `every` times as often as EVERY says.
         """
         self.done += 1
+        if not math.isfinite(line["loss"]):
+            problem = f"the loss of iteration {self.done} is no number"
+            raise PlannerError(f"--out {self.folder}: {problem}; train with other settings")
         self.log.append({"iteration": self.done, **line})
         report(label, self.done, self.settings.iterations)
         last = last or self.done == self.settings.iterations
@@ -185,12 +189,14 @@ class Checkpoint:
         try:
             state = torch.load(path, weights_only=True)
             kept = {"goto": self.own.get("goto"), **state["settings"]}  # earlier ones name no goto
-        except (RuntimeError, KeyError, EOFError, OSError) as error:
-            problem = f"is no checkpoint ({error})"
-            raise PlannerError(f"{path}: {problem}; start without --resume") from None
-        check_same(path, self.own, kept)
-        for part, values in zip(self.parts, state["parts"], strict=True):
-            part.load_state_dict(values)
-        self.random.set_state(state["random"])
-        torch.set_rng_state(state["torch"])
-        self.done, self.log, self.more = int(state["done"]), state["log"], state["more"]
+            check_same(path, self.own, kept)
+            for part, values in zip(self.parts, state["parts"], strict=True):
+                part.load_state_dict(values)
+            self.random.set_state(state["random"])
+            torch.set_rng_state(state["torch"])
+            self.done, self.log, self.more = int(state["done"]), state["log"], state["more"]
+        except PlannerError:
+            raise
+        except Exception as error:  # pickles fail in every way
+            problem = f"cannot be read as a checkpoint ({type(error).__name__})"
+            raise PlannerError(f"{path}: {problem}; start again with --overwrite") from None

@@ -18,6 +18,7 @@ from planner_ft.skills.option import Compiled
 from planner_ft.skills.policies import Checkpoint
 from planner_ft.skills.survey import NUMBERS, Survey, Task
 from planner_ft.skills.surveyor import Surveyor
+from planner_ft.support.errors import PlannerError
 from planner_ft.support.terminal import Report
 
 L3 = (1 / 7, 1 / 7, 3 / 7, 1 / 7, 1 / 7)  # the published oversampling: the L in 3 of 7 draws
@@ -42,6 +43,12 @@ class Settings:
     patience: int = 20  # iterations without a better mean reward after which training ends
     sampling: str = "uniform"
     without: str | None = None
+
+    def __post_init__(self) -> None:
+        """Raise PlannerError for more environments than options of a batch."""
+        if self.environments > self.frames:
+            most = f"must be at most {self.frames}, the options of an iteration"
+            raise PlannerError(f"--environments {self.environments}: {most}")
 
 
 @dataclass

@@ -25,6 +25,7 @@ from planner_ft.support.terminal import Report, under
 RECIPES = ("ours", "published")
 SAMPLING = ("uniform", "l3")
 TERMS = ("standoff", "progress", "visibility")
+MOST_SEED = 2**63 - 1  # that torch takes
 NO_EXTRA = "needs torchrl, which is not installed; pip install planner_ft[sim], or --recipe ours"
 
 
@@ -54,6 +55,8 @@ class SkillTraining:
             if value not in known:
                 names = ", ".join(str(one) for one in known if one)
                 raise PlannerError(f"{flag}{value}: must be one of {names}")
+        if not 0 <= self.seed <= MOST_SEED:
+            raise PlannerError(f"--seed {self.seed}: must be from 0 to {MOST_SEED}")
         published = self.skill == "survey" and self.recipe == "published"
         if not published and (self.sampling != "uniform" or self.without):
             which = "--sampling" if self.sampling != "uniform" else "--without"

@@ -30,6 +30,9 @@ def alone(folder: Path | None, flag: str, work: str) -> Iterator[None]:
         lock.acquire(blocking=False)
         _remove_staged(folder)
     except Timeout:
+        if not Path(lock.lock_file).exists():  # in a folder that takes no files, such as /proc
+            problem = f"nothing can be written in {folder.parent}"
+            raise PlannerError(f"{flag} {given}: {problem}; give another folder") from None
         way_out = "wait for its end, or give another folder"
         raise PlannerError(f"{flag} {given}: {work} runs there; {way_out}") from None
     except OSError:

@@ -239,12 +239,40 @@ def test_the_published_recipe_ends_without_a_better_mean_reward(
         ({"skill": "swim"}, "swim: must be one of goto, hold, survey"),
         ({"skill": "survey", "recipe": "best"}, "--recipe best: must be one of ours, published"),
         ({"skill": "goto", "sampling": "l3"}, "--sampling: is of"),
+        ({"skill": "goto", "seed": 10**20}, "--seed 100000000000000000000: must be from 0 to"),
         ({"skill": "survey", "without": "fun"}, "--without fun: must be one of standoff"),
     ],
 )
 def test_unknown_words_are_refused(given: dict[str, Any], text: str, tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match=text):
         SkillTraining(out=tmp_path, **given)
+
+
+@pytest.mark.parametrize("state", [b"\x80garbage", b"", {"settings": 3}, [1], {}])
+def test_a_damaged_checkpoint_is_named(state: Any, tmp_path: Path) -> None:
+    path = tmp_path / "checkpoint.pt"
+    if isinstance(state, bytes):
+        path.write_bytes(state)
+    else:
+        torch.save(state, path)
+    with pytest.raises(PlannerError, match=r"checkpoint\.pt: cannot be read as a checkpoint \(\w+"):
+        train_skill(request(tmp_path, "goto", resume=True), quiet)
+
+
+def test_a_loss_that_is_no_number_is_never_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tracking, "_iterate", lambda *_given: math.nan)
+    with pytest.raises(PlannerError, match="the loss of iteration 1 is no number"):
+        train_skill(request(tmp_path, "goto"), quiet)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_more_environments_than_options_are_refused(tmp_path: Path) -> None:
+    pytest.importorskip("torchrl")
+    changes = {"environments": 8001}
+    with pytest.raises(PlannerError, match="--environments 8001: must be at most 8000"):
+        train_skill(SkillTraining("survey", tmp_path, "published", changes=changes), quiet)
 
 
 def test_folders_are_not_overwritten(tmp_path: Path) -> None:

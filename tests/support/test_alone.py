@@ -6,8 +6,10 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
+from filelock import FileLock, Timeout
 
 from planner_ft.cli import main
 from planner_ft.document import write_document
@@ -29,6 +31,18 @@ def test_a_second_one_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
     with alone(folder, "--out", "a benchmark"):
         pass
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_takes_no_lock_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    refused = Mock(side_effect=Timeout("lock"))  # as in /proc, where no file can be made
+    monkeypatch.setattr(FileLock, "acquire", refused)
+    with (
+        pytest.raises(PlannerError, match=r"--out .*run: nothing can be written in .*; give ano"),
+        alone(tmp_path / "run", "--out", "a benchmark"),
+    ):
+        pass
 
 
 def test_files_of_the_run_stay(tmp_path: Path) -> None:
