@@ -69,7 +69,7 @@ def _place(text: str) -> tuple[float, float]:
     return x, y
 
 
-USUAL = {"recipe": "ours", "sampling": "uniform"}
+USUAL = {"recipe": "ours", "sampling": "uniform", "episodes": 20}
 
 
 @command
@@ -83,15 +83,21 @@ def skill(o: Options) -> None:
         raise PlannerError(f"plannerft skill {o.action}: must be train or bench")
 
 
+def _refuse(o: Options, why: str, *names: str) -> None:
+    """Raise PlannerError for an option that would do nothing."""
+    for name, value in o.given(*names).items():
+        if value != USUAL.get(name, []):
+            raise PlannerError(f"--{name}: {why}")
+
+
 def _train(o: Options) -> None:
     from planner_ft.skills.training import SkillTraining, train_all, train_skill
 
+    _refuse(o, "is of `skill bench`; leave it out", "policy", "episodes")
     if o.name == "all":
-        root = o.out or Path("skills")
-        own = o.given("without", "goto", "iterations", "environments")
-        own |= {name: None for name, usual in USUAL.items() if o.take(name)[name] != usual}
-        if own:
-            raise PlannerError(f"--{next(iter(own))}: is of one skill; name it instead of all")
+        root, why = o.out or Path("skills"), "is of one skill; name it instead of all"
+        own = "without", "goto", "iterations", "environments", "recipe", "sampling"
+        _refuse(o, why, *own)
         with interruptible(lambda: f"continue with: {resume_command()}") as report:
             train_all(root, report, **o.take("seed", "resume", "overwrite"))
         show(f"{root}: a folder for each skill, with policy.safetensors, card, manifest and log")
@@ -107,6 +113,8 @@ def _train(o: Options) -> None:
 def _bench(o: Options) -> None:
     from planner_ft.skills.bench import SkillBench, bench_skill
 
+    own = "recipe", "iterations", "environments", "sampling", "without", "resume"
+    _refuse(o, "is of `skill train`; leave it out", *own)
     request = o.into(SkillBench, skill=o.name, policies=tuple(o.policy or ()))
     with interruptible() as report:
         tables = bench_skill(request, report)

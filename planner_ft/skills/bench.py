@@ -81,6 +81,8 @@ class SkillBench:
             raise PlannerError(f"{self.skill}: must be one of {', '.join(SKILLS)}")
         if not 1 <= self.episodes <= MOST:
             raise PlannerError(f"--episodes {self.episodes}: must be from 1 to {MOST}")
+        if self.goto and self.skill != "survey":
+            raise PlannerError("--goto: is of `skill bench survey` alone; give --policy instead")
         if not (self.out and self.out.is_dir()):
             return
         found = {path.name for path in self.out.iterdir() if not path.name.startswith(".")}

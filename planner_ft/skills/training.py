@@ -57,6 +57,8 @@ class SkillTraining:
                 raise PlannerError(f"{flag}{value}: must be one of {names}")
         if not 0 <= self.seed <= MOST_SEED:
             raise PlannerError(f"--seed {self.seed}: must be from 0 to {MOST_SEED}")
+        if self.recipe != "ours" and self.skill != "survey":
+            raise PlannerError("--recipe: is of `skill train survey` alone; leave it out")
         published = self.skill == "survey" and self.recipe == "published"
         if not published and (self.sampling != "uniform" or self.without):
             which = "--sampling" if self.sampling != "uniform" else "--without"

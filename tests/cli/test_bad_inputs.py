@@ -282,6 +282,19 @@ skill train hold --recipe nobody --out OUT
 skill train hold --goto /nowhere --out OUT
 skill train hold --resume --overwrite --out OUT
 skill train hold --out EMPTY/x
+skill train hold --seed 99999999999999999999 --out OUT
+skill train hold --recipe published --out OUT
+skill train hold --policy x --out OUT
+skill train hold --episodes 4 --out OUT
+skill train all --policy x --out OUT
+skill train all --recipe published --out OUT
+skill bench hold --recipe published --episodes 1 --out OUT
+skill bench hold --iterations 5 --episodes 1 --out OUT
+skill bench hold --environments 3 --episodes 1 --out OUT
+skill bench hold --sampling l3 --episodes 1 --out OUT
+skill bench hold --without progress --episodes 1 --out OUT
+skill bench hold --resume --episodes 1 --out OUT
+skill bench hold --goto /nowhere --episodes 1 --out OUT
 skill bench nobody --out OUT
 skill bench hold --episodes 0 --out OUT
 skill bench hold --policy /nowhere --out OUT
