@@ -121,4 +121,6 @@ def _bench(o: Options) -> None:
     for table in tables:
         show_table(table)
     if o.out:
-        show(f"{o.out}: table.md, table.csv, episodes.json and manifest.json")
+        episodes = ["episodes.json"] if o.name == "survey" else []
+        files = ", ".join(["table.md", *(f"{one.name}.csv" for one in tables), *episodes])
+        show(f"{o.out}: {files} and manifest.json")

@@ -20,7 +20,7 @@ from planner_ft.simulation.world import World
 from planner_ft.skills.dynamics import Guidance, published_vessel
 from planner_ft.skills.episodes import Actor, Episode, contour_follower, oracle, play
 from planner_ft.skills.geometry import HELD_OUT, PUBLISHED
-from planner_ft.skills.policies import MANIFEST, SKILLS, Policy, read_policy
+from planner_ft.skills.policies import MANIFEST, SKILLS, WEIGHTS, Policy, read_policy
 from planner_ft.skills.survey import Task
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
@@ -116,9 +116,18 @@ def bench_skill(request: SkillBench, report: Report) -> list[Table]:
             played = _play_all(request, policies, report)
             played |= pooled(policies[1:], played)
             tables = [class_table(played, request.seed), condition_table(played, request.seed)]
+            tables = [_with_goto(one, request.goto) for one in tables]
         if request.out:
             _write(request, request.out, policies, tables, played)
     return tables
+
+
+def _with_goto(table: Table, goto: Path | None) -> Table:
+    """The table with the GoToXY policy of its surveys named, where it is not the one that ships."""
+    if goto is None:
+        return table
+    named = f"GoToXY: {goto}, sha256 {sha256_file(goto / WEIGHTS)[:12]}."
+    return replace(table, caption=f"{table.caption} {named}")
 
 
 Played = dict[str, dict[str, list[Episode]]]  # episodes by policy or baseline, and by condition
@@ -233,6 +242,9 @@ def _write(
     names = ["shipped", *map(str, request.policies)]
     digests = {name: sha256_file(one.path) for name, one in zip(names, policies, strict=True)}
     configuration = {"skill": request.skill, "episodes": request.episodes, "policies": digests}
+    if played:
+        goto = read_policy("goto", request.goto).path
+        configuration["goto"] = {str(request.goto or "shipped"): sha256_file(goto)}
     manifest = build_manifest(KIND, seed=request.seed, configuration=configuration)
     write_json(out / MANIFEST, manifest)
     for name in FILES - {MANIFEST}:
@@ -244,7 +256,8 @@ def _write(
         name: {condition: [asdict(one) for one in some] for condition, some in by.items()}
         for name, by in played.items()
     }
-    write_json(out / "episodes.json", episodes)
+    if played:
+        write_json(out / "episodes.json", episodes)
 
 
 # ----------------------------------- GoToXY and StationKeep, in the simulator of missions

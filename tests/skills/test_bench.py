@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
+import sys
 from pathlib import Path
 
 import pytest
 from torch import nn
 
+from planner_ft.cli import main
 from planner_ft.skills import bench
 from planner_ft.skills.bench import (
     CONDITIONS,
@@ -17,9 +20,9 @@ from planner_ft.skills.bench import (
     pooled,
 )
 from planner_ft.skills.episodes import Episode
-from planner_ft.skills.policies import Policy
+from planner_ft.skills.policies import SHIPPED, Policy
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import write_json
+from planner_ft.support.files import read_json, sha256_file, write_json
 from planner_ft.support.tables import markdown_table
 
 
@@ -74,9 +77,14 @@ def test_a_bench_writes_table_episodes_and_manifest(
     conditions = {"published conditions": (("circle",), CONDITIONS["published conditions"][1])}
     monkeypatch.setattr(bench, "CONDITIONS", conditions)
     out = tmp_path / "bench"
-    request = SkillBench("survey", episodes=1, out=out)
+    goto = tmp_path / "goto"
+    shutil.copytree(SHIPPED / "goto", goto)
+    request = SkillBench("survey", episodes=1, out=out, goto=goto)
     tables = bench_skill(request, lambda _label, _done, _total: None)
     assert len(tables) == 2
+    digest = sha256_file(goto / "policy.safetensors")
+    assert read_json(out / "manifest.json")["configuration"]["goto"] == {str(goto): digest}
+    assert f"GoToXY: {goto}, sha256 {digest[:12]}." in tables[0].caption
     written = {path.name for path in out.iterdir()}
     assert written == {
         *("table.md", "classes.csv", "conditions.csv", "episodes.json", "manifest.json")
@@ -87,6 +95,19 @@ def test_a_bench_writes_table_episodes_and_manifest(
     with pytest.raises(PlannerError, match="holds files; give --overwrite"):
         SkillBench("survey", episodes=1, out=out)
     assert SkillBench("goto", out=out, overwrite=True)
+
+
+def test_a_bench_names_what_it_writes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "bench"
+    words = "plannerft", "skill", "bench", "goto", "--episodes", "2", "--out", str(out)
+    monkeypatch.setattr(sys, "argv", list(words))
+    with pytest.raises(SystemExit, match="0"):
+        main()
+    said = capsys.readouterr().out.replace("\n", " ").split("bench: ")[-1]
+    assert said.strip() == "table.md, goto.csv and manifest.json"
+    assert {path.name for path in out.iterdir()} == {"table.md", "goto.csv", "manifest.json"}
 
 
 @pytest.mark.parametrize(
