@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from planner_ft.benchmark.statistics import bootstrap_mean, wilson
+from planner_ft.benchmark.statistics import bootstrap_mean, clustered_rate, wilson
 from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Running, Stage
 from planner_ft.simulation.fast import Bools, FastSimulator, Floats
@@ -58,7 +58,7 @@ CONDITIONS: dict[str, tuple[tuple[str, ...], Task]] = {
 CAPTION = (
     "Means over episodes with 95 % intervals (rates: Wilson; means: bootstrap over episodes). Success:"
     " a whole lap; stand-off: mean distance from the commanded one over all time steps, the"
-    " approach included. Seeds of one training are shown one by one and pooled. Published figures"
+    " approach included. Seeds of one training are shown one by one and pooled, each object a cluster. Published figures"
     " are of another simulator; what the study does not say was chosen."
 )
 
@@ -228,10 +228,10 @@ _RATES = ("success", "collision", "lost")
 
 
 def _row(name: str, episodes: Sequence[Episode], seed: int) -> TableRow:
-    count = len(episodes)
-    rates = [wilson(sum(one.outcome == kind for one in episodes), count) for kind in _RATES]
-    error = bootstrap_mean([one.error for one in episodes], range(count), seed)
-    steps = bootstrap_mean([float(one.steps) for one in episodes], range(count), seed)
+    objects = [one.number for one in episodes]  # pooled seeds share them
+    rates = [clustered_rate([one.outcome == kind for one in episodes], objects) for kind in _RATES]
+    error = bootstrap_mean([one.error for one in episodes], objects, seed)
+    steps = bootstrap_mean([float(one.steps) for one in episodes], objects, seed)
     cells = [one.cell(scale=100, decimals=0) for one in rates]
     return row(name, *cells, error.cell(), steps.cell(decimals=0))
 

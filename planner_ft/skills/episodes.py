@@ -23,7 +23,7 @@ PUSHES = 3
 @dataclass(frozen=True)
 class Episode:
     """One episode: `error` is the mean distance from the stand-off in m over all its time steps,
-    `steps` are time steps, `length` in m.
+    `steps` are time steps, `length` in m, `number` which object of its condition it had.
     """
 
     family: str
@@ -31,6 +31,7 @@ class Episode:
     error: float
     steps: int
     length: float
+    number: int
 
 
 @torch.no_grad()
@@ -47,7 +48,7 @@ def play(
             if outcome and found[one] is None:
                 error = float(world.off[one] / world.time[one].clamp_min(1))
                 figures = error, int(world.time[one]), float(world.length[one])
-                found[one] = Episode(families[one], outcome, *figures)
+                found[one] = Episode(families[one], outcome, *figures, one)
     return [one for one in found if one is not None]
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import shutil
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from torch import nn
 
@@ -26,15 +28,20 @@ from planner_ft.support.files import read_json, sha256_file, write_json
 from planner_ft.support.tables import markdown_table
 
 
+def _figures(number: int) -> tuple[float, int, float, int]:
+    return 0.2 * (number + 1), 100, 9.0, number
+
+
 def episodes(wins: int, family: str = "L") -> list[Episode]:
     return [
-        Episode(family, "success" if number < wins else "collision", 0.2 * (number + 1), 100, 9.0)
+        Episode(family, "success" if number < wins else "collision", *_figures(number))
         for number in range(4)
     ]
 
 
 def test_rows_are_shares_and_means_of_episodes() -> None:
-    played = {"ours": {name: [*episodes(3), *episodes(4, "circle")] for name in CONDITIONS}}
+    circles = [replace(one, number=one.number + 4) for one in episodes(4, "circle")]
+    played = {"ours": {name: [*episodes(3), *circles] for name in CONDITIONS}}
     rows = {one.heading: one for one in class_table(played, 0).rows}
     texts = {name: [cell.text for cell in one.cells] for name, one in rows.items()}
     assert texts["all"][:0] == []
@@ -63,6 +70,17 @@ def test_seeds_of_one_training_are_pooled(tmp_path: Path) -> None:
     found = pooled([*policies, policies[0], bare], played)
     assert list(found) == ["learnt, published, l3, 2 seeds"]
     assert found["learnt, published, l3, 2 seeds"]["calm"] == [*episodes(0), *episodes(1)]
+
+
+def test_seeds_with_the_same_objects_make_no_interval_narrower() -> None:
+    one, two = (
+        condition_table({"ours": {name: times * episodes(3) for name in CONDITIONS}}, 0).rows[1]
+        for times in (1, 2)
+    )
+    assert one.cells[3:] == two.cells[3:]
+    for first, second in zip(one.cells[:3], two.cells[:3], strict=True):
+        narrow, wide = (np.diff(np.array(cell.bounds, float))[1:] for cell in (first, second))
+        assert (wide >= narrow - 1e-9).all()
 
 
 def test_published_figures_stand_beside() -> None:
