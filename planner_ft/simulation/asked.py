@@ -25,7 +25,7 @@ KINDS = {
     "lidar": ("share of the rays that is lost", 0.0, 1.0),
     "port": ("share of the port thruster's power that is left", 0.0, 1.0),
     "starboard": ("share of the starboard thruster's power that is left", 0.0, 1.0),
-    "battery": ("share of the charge at the start", 0.0, 1.0),
+    "battery": ("share of the full charge that is left at START", 0.0, 1.0),
 }
 """What can fail, with the meaning and the range of its value."""
 EXAMPLE = "such as current=0.3/90, gps@60-120, port=0.5@100 or battery=0.2"
@@ -60,7 +60,7 @@ class Faults:
         return (one for one in self.all if one.kind == kind and one.start <= time < one.end)
 
     def share(self, kind: str, time: float) -> float:
-        """What is left of a thruster, or the charge at the start; 1 without a fault."""
+        """What is left of a thruster or of a full battery; 1 without a fault."""
         return min((one.value for one in self.active(kind, time)), default=1.0)
 
 
@@ -92,6 +92,8 @@ def _fault(text: str) -> Fault:
         raise PlannerError(f"{flag}: only current and wind have a bearing, in degrees from north")
     if not 0 <= times[0] < times[1]:
         raise PlannerError(f"{flag}: it must start at 0 s or later, and before it ends")
+    if kind == "battery" and end:
+        raise PlannerError(f"{flag}: a charge that is lost does not come back; leave out -{end}")
     return Fault(kind, number, toward, *times, text)
 
 

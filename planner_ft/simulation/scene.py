@@ -136,7 +136,7 @@ class Scene:
         self.broken = np.zeros(count, dtype=bool)
         """Runs of which the simulator gave no finite state: they stay where they were."""
         self.energy = np.zeros(count)  # N s: the integral of all thrust
-        self.charge = np.full(count, world.vessel.capacity * world.faults.share("battery", 0))
+        self.charge = np.full(count, self._left)
         """N s that the battery has left, hotel load included."""
         self._phase = world.generator.uniform(0, 2 * np.pi, count)
         self._scan: tuple[int, Floats] | None = None
@@ -145,6 +145,11 @@ class Scene:
     def time(self) -> float:
         """Seconds since the start."""
         return self.steps * self.seconds
+
+    @property
+    def _left(self) -> float:
+        """N s that the battery can hold now: all of it, or the share that a fault leaves."""
+        return self.vessel.capacity * self.world.faults.share("battery", self.time)
 
     @property
     def count(self) -> int:
@@ -190,6 +195,7 @@ class Scene:
         """
         world, time, dt = self.world, self.time, self.seconds
         current, wind = world.currents(time), world.winds(time)
+        self.charge = np.minimum(self.charge, self._left)
         idle = self.idle | ~active | (self.charge <= 0)
         made = self.autopilot(self.command, self.twist, dt, idle)
         if self.vessel.drive == "differential":

@@ -221,6 +221,8 @@ def test_faults_are_told_and_lead_home_or_stop(run: Run) -> None:
         {"returned"},
         {"the battery is low"},
     )
+    late = run(FAR, faults=read_faults(["battery=0@5"])).results
+    assert [(one.reason, one.seconds) for one in late] == [("the battery is empty", 5.2)] * 2
     lost = run(FAR, faults=read_faults(["gps@10"]))
     assert outcome(lost)[0] == {"stopped"} and "without a GPS fix" in lost.results[0].reason
     texts = [line["text"] for line in lines(lost) if line["kind"] == "event"]
@@ -250,6 +252,7 @@ def test_wind_and_a_weak_thruster_are_felt(run: Run) -> None:
         ("port=0.5/90", "only current and wind have a bearing"),
         ("gps@60-30", "before it ends"),
         ("wind=nan", "from 0 to 40"),
+        ("battery=0.5@60-90", "does not come back; leave out -90"),
     ],
 )
 def test_a_fault_that_is_none_is_refused(text: str, message: str) -> None:
