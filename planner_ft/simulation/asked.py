@@ -55,6 +55,11 @@ class Faults:
 
     all: tuple[Fault, ...] = ()
 
+    @property
+    def texts(self) -> list[str]:
+        """All faults as they were typed."""
+        return [one.text for one in self.all]
+
     def active(self, kind: str, time: float) -> Iterator[Fault]:
         """The faults of a kind that are at work at a time."""
         return (one for one in self.all if one.kind == kind and one.start <= time < one.end)

@@ -165,8 +165,7 @@ class Executor:
         running.stop(over)
         self.observer.finished(running.movement, over)
         if returning:
-            for run in over:
-                self._end([run], "returned", self.reason[run])
+            self._end(over, "returned", "")
         elif at + 2 == len(self.stages):
             self._end(over, "done", "")
         else:
@@ -187,7 +186,7 @@ class Executor:
     def _fail(self, run: int, at: int, mode: str, reason: str) -> None:
         """Home where the step names the failure mode and the position is known; else stop."""
         if at == len(self.stages) - 1:
-            end = f"{self.reason[run]}; on the way home: {reason}"
+            end = reason
         elif self.scene.lost[run]:
             end = f"{reason}; without a GPS fix it cannot return"
         elif mode in self.stages[at].failures:
@@ -216,9 +215,12 @@ class Executor:
             self.scene.note(int(run), "step", where)
 
     def _end(self, runs: Iterable[int], outcome: Outcome, reason: str) -> None:
-        text = outcome + (f": {reason}" if reason else "")
+        """End runs; for one that was on the way home, the reason for that comes first."""
+        late = f"on the way home: {reason}" if reason else ""
         for run in map(int, runs):
             if self.outcome[run] == "running":
-                self.outcome[run], self.reason[run] = outcome, reason
+                before = self.reason[run]
+                why = "; ".join(filter(None, (before, late))) if before else reason
+                self.outcome[run], self.reason[run] = outcome, why
                 self.ended[run], self.scene.idle[run] = self.scene.steps, True
-                self.scene.note(run, "end", {"text": text})
+                self.scene.note(run, "end", {"text": outcome + (f": {why}" if why else "")})

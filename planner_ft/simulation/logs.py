@@ -16,6 +16,7 @@ import numpy as np
 from planner_ft.document.track import Point
 from planner_ft.simulation.asked import Faults
 from planner_ft.simulation.executor import Executor
+from planner_ft.simulation.fast import Runs
 from planner_ft.simulation.measures import Observer
 from planner_ft.simulation.scene import FIX_SIGMA, Scene
 from planner_ft.support.files import compact_json, read_toml
@@ -69,14 +70,19 @@ class RunLogs:
         if run < len(self.ros):
             self.ros[run].note(line)
 
-    def step(self, executor: Executor) -> None:
-        """Poses, faults that begin or end, and ROS 2 messages of this time step."""
-        scene, active = self.scene, np.flatnonzero(executor.active)
+    def tell_faults(self, runs: Runs) -> None:
+        """Note the faults that begin or end now."""
+        scene = self.scene
         for fault in self.faults.all:
             for at, words in ((fault.start, "begins"), (fault.end, "ends")):
                 if 0 <= scene.time - at < scene.seconds - 1e-9:
-                    for run in active:
+                    for run in runs:
                         scene.note(int(run), "event", {"text": f"fault {fault.text} {words}"})
+
+    def step(self, executor: Executor) -> None:
+        """Poses, faults that begin or end, and ROS 2 messages of this time step."""
+        scene, active = self.scene, np.flatnonzero(executor.active)
+        self.tell_faults(active)
         if scene.steps % round(POSE / scene.seconds) == 0:
             for run in active:
                 x, y, _z, yaw = (round(float(one), 2) for one in scene.pose[run])

@@ -39,6 +39,7 @@ def report_texts(done: Simulated, picture: str) -> dict[str, str]:
         "runs": len(done.results),
         "outcome": outcome + (f"; limits of the plan broken: {limits}" if limits else ""),
         "limits": limits or "none",
+        "by": _ran(done),
         "where": f"[0, 0] is {plan.origin}." if plan.origin else where,
         "tasks": [_task(task, done.log) for task in plan.document["tasks"]],
         "events": [f"{clock(one['t'])} {one['text']}" for one in events],
@@ -150,6 +151,7 @@ def write_all(done: Simulated) -> None:
         "plan": done.plan.mark,
         "approved": done.plan.approval is not None,
         "command": done.plan.document["command"],
+        "faults": done.settings.faults.texts,
         "overall": {name: one.to_json() for name, one in overall.items()},
         "metrics": list(METRICS),
         "runs": [{**asdict(one), "success": one.success} for one in done.results],
@@ -165,12 +167,18 @@ def table(done: Simulated, *, narrow: bool = False) -> Table:
     measured = summary(done.results, done.settings.seed)
     mark = "" if done.plan.approval else ", DRAFT - NOT APPROVED"
     quoted = _published(done, narrow)
-    names = [done.settings.simulator + mark, *(f"{one['mission']} (published)" for one in quoted)]
+    names = [_ran(done) + mark, *(f"{one['mission']} (published)" for one in quoted)]
     rows = [row("runs", str(len(done.results)), *(one["runs"] for one in quoted))]
     for name, (heading, *_form) in COLUMNS.items():
         cells = [cell(name, Estimate(number(one, name))) for one in quoted]
         rows.append(row(heading, cell(name, measured[name]), *cells))
     return Table("", names, rows, name="simulation", caption=CAPTION)
+
+
+def _ran(done: Simulated) -> str:
+    """The simulator, and the faults that runs were under."""
+    faults = done.settings.faults.texts
+    return done.settings.simulator + (f", faults: {', '.join(faults)}" if faults else "")
 
 
 def outcome_lines(results: list[RunResult]) -> list[str]:
@@ -195,7 +203,7 @@ def manifest(done: Simulated) -> dict[str, Any]:
         "starts": [list(start) for start in settings.starts],
         "locations": {name: list(place) for name, place in settings.locations.items()},
         "outlines": {name: one.tolist() for name, one in settings.outlines.items()},
-        "faults": [fault.text for fault in settings.faults.all],
+        "faults": settings.faults.texts,
         "origin": asdict(done.plan.origin) if done.plan.origin else None,
         "vessel": asdict(done.scene.vessel),
         "step_seconds": done.scene.seconds,
@@ -285,7 +293,7 @@ def _drawn(done: Simulated) -> str:
     axes.set_ylabel("y north, m")
     axes.grid(color="#eee")
     ended = sum(one.success for one in done.results)
-    title = f"{ended} of {len(done.results)} runs done; {done.settings.simulator} simulator"
+    title = f"{ended} of {len(done.results)} runs done; simulator {_ran(done)}"
     limits = broken(done.results)
     axes.set_title(title + (f"\nlimits of the plan broken: {limits}" if limits else ""))
     axes.legend(loc="best", fontsize=8)

@@ -137,6 +137,7 @@ class _Prepared:
             writer.begin(scene, observer, way)
             executor = Executor(self.stages, self.home, scene, observer, staging.seconds)
             executor.begin()
+            writer.tell_faults(np.flatnonzero(executor.active))
             while executor.step():
                 writer.step(executor)
                 if watch is not None:

@@ -213,6 +213,7 @@ def outcome(done: Simulated) -> tuple[set[str], set[str]]:
     return {one.outcome for one in done.results}, {one.reason for one in done.results}
 
 
+FAULTY = ("report.md", "report.html", "table.md", "table.csv")
 FAR = [transit(60, 0, using(go(60, 0), (), [("GetGPSLocation", {})])), transit(0, 0)]
 
 
@@ -227,11 +228,25 @@ def test_faults_are_told_and_lead_home_or_stop(run: Run) -> None:
     assert outcome(lost)[0] == {"stopped"} and "without a GPS fix" in lost.results[0].reason
     texts = [line["text"] for line in lines(lost) if line["kind"] == "event"]
     assert texts == ["fault gps@10 begins"]
+    blown = run(FAR, faults=read_faults(["wind=1/90", "battery=0.05@0"]))
+    texts = [(line["t"], line["text"]) for line in lines(blown) if line["kind"] == "event"]
+    assert texts[:2] == [(0, "fault wind=1/90 begins"), (0, "fault battery=0.05@0 begins")]
+    files = {name: (blown.settings.folder / name).read_text() for name in FAULTY}
+    assert all("wind=1/90, battery=0.05@0" in text for text in files.values())
+    results = json.loads((blown.settings.folder / "results.json").read_text())
+    assert results["faults"] == ["wind=1/90", "battery=0.05@0"]
     limit = "The mission takes at most 60 s."
     assert outcome(run(FAR, how={"constraints": [limit]})) == (
         {"returned"},
         {"the time is nearly over"},
     )
+
+
+def test_a_run_that_ends_on_the_way_home_says_why_it_turned(run: Run) -> None:
+    limit = {"constraints": ["The mission takes at most 60 s."]}
+    for one in run(FAR, how=limit, faults=read_faults(["battery=0@35"])).results:
+        assert one.outcome == "stopped"
+        assert one.reason == "the time is nearly over; on the way home: the battery is empty"
 
 
 def test_wind_and_a_weak_thruster_are_felt(run: Run) -> None:
