@@ -85,7 +85,8 @@ class Mission:
     the account, still open.
 
     `vehicle_type` is the MAV_TYPE of the vehicle's kind; one whose profile states none is a surface
-    boat, or a quadrotor where its movements have altitudes. `heading` is where the bow points, None while that is not known.
+    boat, or a quadrotor where its movements have altitudes. `heading` is where the bow points, None
+    while that is not known.
     """
 
     def __init__(self, plan: PlanExport) -> None:

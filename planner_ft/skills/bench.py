@@ -58,8 +58,8 @@ CONDITIONS: dict[str, tuple[tuple[str, ...], Task]] = {
 CAPTION = (
     "Means over episodes with 95 % intervals (rates: Wilson; means: bootstrap over episodes). Success:"
     " a whole lap; stand-off: mean distance from the commanded one over all time steps, the"
-    " approach included. Seeds of one training are shown one by one and pooled, each object a cluster. Published figures"
-    " are of another simulator; what the study does not say was chosen."
+    " approach included. Seeds of one training are shown one by one and pooled, each object a"
+    " cluster. Published figures are of another simulator; what the study does not say was chosen."
 )
 
 
