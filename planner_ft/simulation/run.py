@@ -36,10 +36,10 @@ from planner_ft.support.terminal import Report
 if TYPE_CHECKING:
     from planner_ft.review.web.run import Frame, Stop
 
-RESULTS, MANIFEST = "results.json", "manifest.json"
+RESULTS, MANIFEST, TEMPORARY = "results.json", "manifest.json", ".*.tmp"
 OURS = (
     *("run-*.jsonl", "run-*.mcap", RESULTS, MANIFEST),
-    *("table.*", "tracks.svg", "report.*", ".*.tmp"),
+    *("table.*", "tracks.svg", "report.*", TEMPORARY),
 )
 """Files of a simulation, which --overwrite may remove."""
 Watch = Callable[[Executor], None]

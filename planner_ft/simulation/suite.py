@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import functools
 import re
-import shutil
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,9 +17,10 @@ from planner_ft.document import build, read_document, write_document
 from planner_ft.document.vehicle import load_vehicle
 from planner_ft.review import approve, log_beside
 from planner_ft.review.approval import approval_of
+from planner_ft.review.log import head_file
 from planner_ft.simulation.asked import SimulationSettings, read_outlines
 from planner_ft.simulation.output import COLUMNS, cell, number, published_missions
-from planner_ft.simulation.run import MANIFEST, RESULTS, simulate
+from planner_ft.simulation.run import MANIFEST, OURS, RESULTS, TEMPORARY, simulate
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import check_writable, read_json, read_toml, write_json, write_text
@@ -58,7 +58,7 @@ class Mission:
 
     @property
     def folder(self) -> str:
-        return re.sub(r"[^a-z0-9]+", "-", self.name.lower()).strip("-")
+        return _folder(self.name)
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,10 @@ class Suite:
     @property
     def simulators(self) -> list[str]:
         return list(dict.fromkeys(self.raw["simulators"]))
+
+
+def _folder(name: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
 
 
 def read_suite(path: Path) -> Suite:
@@ -150,12 +154,30 @@ def _take(suite: Suite, out: Path, overwrite: bool) -> None:
     if here and not known.exists():
         raise PlannerError(f"--out {out}: holds {here[0].name} and no suite; give another folder")
     if here and overwrite:
-        for path in out.iterdir():
-            shutil.rmtree(path) if path.is_dir() else path.unlink()
+        _clear(out, read_json(known))
     elif here and read_json(known) != suite.raw:
         hint = "give --overwrite to begin anew, or another folder with --out"
         raise PlannerError(f"--out {out}: holds results of another suite than {suite.path}; {hint}")
     write_json(known, suite.raw)
+
+
+def _clear(out: Path, raw: Mapping[str, Any]) -> None:
+    """Remove the files of a suite. Raises PlannerError when others are there."""
+    folders = [out / _folder(one["name"]) for one in raw["missions"]]
+    runs = [folder / name for folder in folders for name in raw["simulators"]]
+    log = log_beside(Path(PLAN))
+    names: list[tuple[Path, tuple[str, ...]]] = [(out, (SUITE, "table.*", TEMPORARY))]
+    names += [(one, (PLAN, log.name, head_file(log).name, TEMPORARY, ".*.lock")) for one in folders]
+    names += [(one, OURS) for one in runs]
+    ours = {path for folder, own in names for name in own for path in folder.glob(name)}
+    if foreign := sorted(set(out.rglob("*")) - ours - {*folders, *runs}):
+        problem = f"holds {foreign[0].relative_to(out)}, which is not of a suite"
+        raise PlannerError(f"--out {out}: {problem}; give another folder")
+    for path in ours - {out / SUITE}:  # which is written anew
+        path.unlink()
+    for folder in (*runs, *folders):
+        with contextlib.suppress(OSError):  # not begun, or told twice
+            folder.rmdir()
 
 
 def _is_approved(plan: Path) -> bool:

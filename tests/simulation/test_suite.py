@@ -103,6 +103,22 @@ def test_another_suite_needs_another_folder(tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match=r"results of another suite than .*--overwrite"):
         ran(other, out)
     assert len(ran(other, out, overwrite=True)) == 1
+    for mine in (
+        out / "thesis.txt",
+        out / "one" / "notes" / "plan.json",
+        out / "two" / "plan.json",
+    ):
+        mine.parent.mkdir(exist_ok=True)
+        mine.write_text("mine")
+        before = set(out.rglob("*"))
+        with pytest.raises(PlannerError, match=r"holds (thesis|one/notes|two).*not of a suite"):
+            ran(other, out, overwrite=True)
+        assert set(out.rglob("*")) == before
+        mine.unlink()
+        if mine.parent != out:
+            mine.parent.rmdir()
+    third = written(tmp_path, mission("Three"), head=head)
+    assert len(ran(third, out, overwrite=True)) == 1 and not (out / "one").exists()
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("mine")
     for overwrite in (False, True):
