@@ -74,7 +74,7 @@ function Start({ store, refuse, again }) {
 function Now({ store, on }) {
   const { run, document: { tasks } } = store.plan;
   const frame = shownFrame(store);
-  const ended = !on && html`<p class=${`ended ${run.status}`} role="status">${run.status === "done" ? "Done: every step ended as planned." : `Ended: ${run.status}${run.reason ? `, ${run.reason}` : ""}.`} <span class="soft">Files: ${run.folder}</span></p>`;
+  const ended = !on && html`<p class=${`ended ${run.status}`} role="status">${run.status === "done" ? `Done: every step ended as planned${run.reason ? `, but ${run.reason}` : ""}.` : `Ended: ${run.status}${run.reason ? `, ${run.reason}` : ""}.`} <span class="soft">Files: ${run.folder}</span></p>`;
   if (!frame) return ended || html`<p role="status">The run begins.</p>`;
   const index = tasks.findIndex((task) => task.id === frame.task);
   const what = index < 0 ? "On the way home" : `Task ${index + 1}, ${tasks[index].title}: step ${frame.step + 1} of ${tasks[index].skill_sequence.length}`;
