@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from planner_ft.document.warnings.asked import other_language
+from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary.definition import BUNDLED
 
 from ...documents import document, step, task
 
@@ -278,3 +281,18 @@ def test_a_task_that_a_constraint_of_the_plan_rules_out_is_told(
     dock = task("DockingApproach", {"goal_position": [9, 9]}, [step("GoToXY", {"x": 9, "y": 9})])
     plan = document([THERE, dock], command="Go to 30, 40.", constraints=[constraint])
     assert any(one["kind"] == "contradiction" for one in plan["warnings"]) == found
+
+
+@pytest.mark.parametrize(("words", "asked"), [("fly to", False), ("take ... sample*", True)])
+def test_an_own_file_asks_a_task_for_what_others_cannot_do(
+    words: str, asked: bool, tmp_path: Path
+) -> None:
+    for kind in ("", ".vehicle"):
+        text = (BUNDLED / f"inspection_drone{kind}.toml").read_text()
+        (tmp_path / f"mine{kind}.toml").write_text(text)
+    ask = f'[[ask]]\nwords = ["{words}"]\ntasks = ["FlyToPoint"]\n'
+    (tmp_path / "mine.ontology.toml").write_text(ask)
+    drone = load_vocabulary(tmp_path / "mine.toml")
+    flown = task("FlyToPoint", {"target_position": [3, 4]}, None, "Go.")
+    plan = document([flown], drone, command="Take the blood samples to [3, 4].")
+    assert ("not-planned" not in {one["kind"] for one in plan["warnings"]}) is asked
