@@ -42,18 +42,22 @@ MISSION_KEYS: dict[str, Kind] = {
 SHORT = ("success", "waypoint_error", "holding_error", "standoff_error")  # figures for a terminal
 SUITE, PLAN = "suite.json", "plan.json"
 REASON = "approved by a suite, read by nobody: for simulation alone"
+OTHERS = (
+    "Published figures are of another simulator, other structures and distances, so that steps,"
+    " seconds and thrust are no comparison."
+)
 Ran = dict[tuple[str, str], dict[str, Any]]  # results.json by mission and simulator
 
 
 @dataclass(frozen=True)
 class Mission:
-    """A command and its runs; `published` names its line in published.csv, `asked` are settings of
-    its simulation, whose `locations` also the agents are told.
+    """A command and its runs; `published` names its line in published.csv, if it has one; `asked`
+    are settings of its simulation, whose `locations` also the agents are told.
     """
 
     name: str
     command: str
-    published: str
+    published: str | None
     asked: Mapping[str, Any]
 
     @property
@@ -107,9 +111,11 @@ def _mission(values: Mapping[str, Any]) -> Mission:
     survey, known = values.get("survey", "waypoints"), ("waypoints", "learnt")
     if survey not in known:
         raise PlannerError(f"survey = {survey!r} must be one of {', '.join(known)}")
-    name, published = values["name"], values.get("published", values["name"])
-    if published not in [one["mission"] for one in published_missions()]:
-        raise PlannerError(f"published = {published!r} is no published mission")
+    name, known_missions = values["name"], [one["mission"] for one in published_missions()]
+    published = values.get("published", name if name in known_missions else None)
+    if published not in (None, *known_missions):
+        listed = ", ".join(known_missions)
+        raise PlannerError(f"published = {published!r} is no published mission: {listed}")
     outlines = [f"{structure}={shape}" for structure, shape in values.get("outlines", {}).items()]
     asked = {key: values[key] for key in ("tolerance", "runs") if key in values}
     asked |= {"locations": places, "starts": starts, "survey": survey}
@@ -200,13 +206,14 @@ def _settings(suite: Suite, mission: Mission, simulator: str, plan: Path) -> Sim
 
 
 def suite_table(suite: Suite, ran: Ran, names: Sequence[str] = tuple(COLUMNS)) -> Table:
-    """A row per mission and simulator, and the published one below, with figures of these names."""
+    """A row per mission and simulator, and below the published one if there is one, with figures of
+    these names.
+    """
     columns = ("runs", *(COLUMNS[name][0] for name in names))
     rows = [one for mission in suite.missions for one in _rows(suite, mission, ran, names)]
-    caption = (
-        "Means over runs with 95 % intervals. Published figures are of another simulator, other"
-        " structures and distances, so that steps, seconds and thrust are no comparison."
-    )
+    caption = "Means over runs with 95 % intervals."
+    if any(one.published for one in suite.missions):
+        caption += f" {OTHERS}"
     return Table("mission", columns, rows, 0, "missions", suite.raw["title"], caption)
 
 
@@ -217,6 +224,6 @@ def _rows(suite: Suite, mission: Mission, ran: Ran, names: Sequence[str]) -> Ite
             cell(name, Estimate(**result["overall"].get(name, {"value": None}))) for name in names
         ]
         yield row(f"{mission.name}, {simulator}", str(len(result["runs"])), *cells)
-    quoted = next(one for one in published_missions() if one["mission"] == mission.published)
-    cells = [cell(name, Estimate(number(quoted, name))) for name in names]
-    yield row(f"{mission.name}, published", quoted["runs"], *cells, kind="published")
+    for quoted in (one for one in published_missions() if one["mission"] == mission.published):
+        cells = [cell(name, Estimate(number(quoted, name))) for name in names]
+        yield row(f"{mission.name}, published", quoted["runs"], *cells, kind="published")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import pytest
 from planner_ft.review import log_beside
 from planner_ft.review.log import read_log
 from planner_ft.simulation import output
-from planner_ft.simulation.suite import Ran, read_suite, run_suite
+from planner_ft.simulation.suite import Ran, read_suite, run_suite, suite_table
 from planner_ft.support.errors import PlannerError
 
 from .test_run import command
@@ -125,6 +126,20 @@ def test_another_suite_needs_another_folder(tmp_path: Path) -> None:
         with pytest.raises(PlannerError, match=r"holds thesis.txt and no suite"):
             ran(other, tmp_path / "mine", overwrite=overwrite)
     assert (tmp_path / "mine" / "thesis.txt").read_text() == "mine"
+
+
+def test_a_mission_of_ones_own_has_no_published_figures(tmp_path: Path) -> None:
+    own = mission("Mine").replace('published = "mission 2"\n', "")
+    one = mission("mission 1").replace('published = "mission 2"\n', "")
+    suite = read_suite(written(tmp_path, own, one))
+    pairs = itertools.product(("Mine", "mission 1"), suite.simulators)
+    made: Ran = {pair: {"overall": {}, "runs": [1]} for pair in pairs}
+    assert [one.published for one in suite.missions] == [None, "mission 1"]
+    rows = suite_table(suite, made).rows
+    assert [one.heading for one in rows if one.kind == "published"] == ["mission 1, published"]
+    alone = read_suite(written(tmp_path, own))
+    table = suite_table(alone, made)
+    assert "Published" not in table.caption and len(table.rows) == len(suite.simulators)
 
 
 @pytest.mark.parametrize(
