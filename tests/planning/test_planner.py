@@ -85,11 +85,11 @@ def test_a_location_that_the_plan_does_not_leave_open_is_a_note_and_the_others_a
         COMMAND, {"lighthouse": (1.0, 2.0), "buoy": (120.0, -35.0), "green buoy": (3.0, 4.0)}
     )
     value = as_json(planned)
-    assert value["located"] == {"green buoy": [120, -35]} and value["complete"]
+    assert value["located"] == {"green buoy": [3, 4]} and value["complete"]
     assert value["assumptions"][-2:] == [
         'Not used for a task: --locate lighthouse: no such place is open; there is "green buoy".'
         + KEPT_CLEAR,
-        'Not used for a task: --locate green buoy: "green buoy" is located by "buoy" already; leave'
+        'Not used for a task: --locate buoy: "green buoy" is located by "green buoy" already; leave'
         " one of them out." + KEPT_CLEAR,
     ]
 
