@@ -51,16 +51,8 @@ where that is not done with the definition.
 
 SLOT = re.compile(r"\{(\w+)\}")
 SLOTS = (
-    "name",
-    "place",
-    "at",
-    "thing",
-    "of",
-    "whereabouts",
-    "position",
-    "found",
-    "feature",
-    "part",
+    *("name", "place", "at", "thing", "of"),
+    *("whereabouts", "position", "found", "feature", "part"),
 )
 """What sentences of NAME.missions.toml can say of every task, beside its parameters."""
 LIMIT = "Limit"  # stands in NAME.missions.toml for the limits of a command, beside the tasks

@@ -8,7 +8,7 @@ import re
 import tomllib
 from collections.abc import Mapping
 
-from planner_ft.facts.words import FOLDER, UNITS, Unit, corrections, is_known
+from planner_ft.facts.words import FOLDER, UNITS, Unit, is_known
 from planner_ft.vocabulary import Entry, Parameter
 
 FEWEST = 4  # letters from which a spelling is a word, in any case and with a plural
@@ -80,7 +80,7 @@ def unknown_at(text: str, start: int, own: str | None) -> str | None:
     if match is None or named(match[1]) or not named(own):
         return None
     parts = [part for part in match[1].split("/") if not named(part) and not is_known(part)]
-    like = ("/" in match[1] or _MIXED.search(part) or not corrections(part) for part in parts)
+    like = ("/" in match[1] or _MIXED.search(part) for part in parts)
     return match[1] if match[1][1:] and any(like) else None
 
 

@@ -160,13 +160,16 @@ def _senses(task: Entry, case: Case) -> set[str]:
     """
     if task["skill_sequence"] is None:
         return {one for one in SENSES if case.words[one].search(task["task_prompt"])}
-    turns, faced = [-_area(own_waypoints(task, case.vocabulary))], list[float]()
+    turns, faced = list[float](), list[float]()
+    if case.vocabulary.task[task["title"]].pattern in ROUND:
+        turns.append(-_area(own_waypoints(task, case.vocabulary)))
     for _role, skill in skills_of(task):
         motion, given = case.vocabulary.motion.of(skill["name"]), skill["parameters"]
         if motion and motion.kind == "turn-to":
             faced.append(float(motion.value("heading", given) or 0))
         elif motion and motion.kind in ("arc", "turn-by"):
-            turns.append(float(motion.value("angle", given) or FULL))
+            angle = motion.value("angle", given)
+            turns.append(FULL if angle is None else float(angle))
     turns += [math.remainder(two - one, FULL) for one, two in itertools.pairwise(faced)]
     return {SENSES[turn < 0] for turn in turns if turn}
 

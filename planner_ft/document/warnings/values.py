@@ -66,7 +66,7 @@ def unsaid(case: Case) -> Iterator[Warning]:
                 continue
             elif is_number(value) and _is_coordinate(evidence, said, case.positions):
                 yield warning("value-not-said", "coordinate", **about)
-            elif unit := _unknown_unit(evidence, said, parameter):
+            elif is_number(value) and (unit := _unknown_unit(evidence, said, parameter)):
                 yield warning("value-not-said", "unknown_unit", **about, words=unit)
             elif bare:
                 yield warning("value-not-said", "unit", **about)

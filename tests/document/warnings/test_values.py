@@ -187,8 +187,9 @@ def test_a_time_has_a_unit_that_is_said() -> None:
 def test_a_unit_that_is_not_known_is_told() -> None:
     circle = task("PerformOrbit", {"center": [9, 9], "radius": 20}, None)
     for said, word in (
-        *(("20 mSv/cm²", "mSv/cm²"), ("20 qt/ac", "qt/ac"), ("20 bxq", "bxq"), ("20 kGy", "kGy")),
+        *(("20 mSv/cm²", "mSv/cm²"), ("20 qt/ac", "qt/ac"), ("20 kGy", "kGy")),
         *(("20", ""), ("20 m", ""), ("20 metrs", ""), ("20 off", ""), ("20 rnd", "")),
+        *(("20 ccw", ""), ("20 counterclockwise", ""), ("20 bxq", "")),
     ):
         plan = document([circle], command=f"Circle the barge at [9, 9] at a radius of {said}.")
         found = [one for one in texts(plan, "value-not-said") if "not known" in one]
