@@ -167,7 +167,7 @@ class Observer:
         if ring is not None and (kept is not None or ring.holds(stage.movement)):
             off = ring.off(here) if kept is None else kept
             reached = self.reached.setdefault(stage.task, self.held < 0)
-            reached[runs] |= off < stage.movement.tolerance
+            reached[runs] |= errors.get("flown", off) < stage.movement.tolerance
             self.standing[runs] += off * reached[runs]
             self.stood[runs] += reached[runs]
         if len(scene.world.piles) and stage.task not in self.close:

@@ -97,7 +97,8 @@ class Skill:
 
     def errors(self, runs: Runs) -> dict[str, Floats]:
         """What is measured of these runs now (n,), in metres: at the end of a step "waypoint", in
-        every time step "holding".
+        every time step "holding" and "standoff", the latter once "flown" (where it goes at another
+        stand-off than the plan's) or else itself has come within the tolerance.
         """
         return {}
 

@@ -137,7 +137,8 @@ class LearntSurvey(Movement):
 
     It ends when the vehicle has gone round the target, and fails when no ray returns for long.
     Before the first return it goes to where the target is said to be. The vehicle's position is
-    what it believes: a fix that jumps moves what is remembered.
+    what it believes: a fix that jumps moves what is remembered. A stand-off outside of what the
+    policy was measured for is told, and flown at the nearest within.
     """
 
     def __init__(self, job: Job, scene: Scene) -> None:
@@ -146,7 +147,8 @@ class LearntSurvey(Movement):
         self.steer = Steered(read_policy("goto"), scene, job.speed)
         self.memory, count = Memory(scene.count), scene.count
         self.center = np.array(job.center or (0.0, 0.0), dtype=float)
-        self.standoff = float(np.clip(job.settings["standoff"], *STANDOFF))
+        self.asked = float(job.settings["standoff"])
+        self.standoff = float(np.clip(self.asked, *STANDOFF))
         self.goal, self.left = np.zeros((count, 3)), np.zeros(count)
         self.swept, self.bearing = np.zeros(count), np.zeros(count)
         self.seen, self.blind = np.zeros(count, dtype=bool), np.zeros(count)
@@ -165,6 +167,16 @@ class LearntSurvey(Movement):
         self.left[runs], self.swept[runs], self.blind[runs] = 0, 0.0, 0.0
         self.seen[runs], self.fresh[runs] = False, True
         self.bearing[runs] = self._bearing(runs)
+        for run in map(int, runs) if self.kept else ():
+            self.scene.note(run, "event", {"text": f"{self.job.skill}: {self.kept}"})
+
+    @property
+    def kept(self) -> str:
+        """What it keeps instead of the stand-off that the plan asks for; empty where it does."""
+        if self.asked == self.standoff:
+            return ""
+        most = "most" if self.asked > self.standoff else "least"
+        return f"the policy keeps at {most} {self.standoff:g} m, the plan asks {self.asked:.1f} m"
 
     def _bearing(self, runs: Runs) -> Floats:
         off = self.scene.position[runs] - self.center
@@ -214,8 +226,9 @@ class LearntSurvey(Movement):
 
     @property
     def why(self) -> str:
-        return f"{self.job.skill}: the structure is lost, no ray returns"
+        lost = f"{self.job.skill}: the structure is lost, no ray returns"
+        return "; ".join(filter(None, (lost, self.kept)))
 
     def errors(self, runs: Runs) -> dict[str, Floats]:
         away = self.scene.world.nearest(self.scene.pose[runs, :2])
-        return {"standoff": np.abs(away - self.standoff)}
+        return {"standoff": np.abs(away - self.asked), "flown": np.abs(away - self.standoff)}

@@ -21,7 +21,7 @@ from planner_ft.support.errors import PlannerError
 from tests.documents import DRONE, step, task
 
 from .conftest import Run
-from .plans import go, transit, using
+from .plans import go, lines, transit, using
 
 CORNERS = [(20, 20), (30, 20), (40, 20), (40, 30), (40, 40), (30, 40), (20, 40), (20, 30)]
 
@@ -74,6 +74,15 @@ def test_the_slot_of_a_survey_is_filled_by_waypoints_or_the_learnt_skill(run: Ru
     angles = np.unwrap(np.arctan2(track[:, 1], track[:, 0]))
     assert angles.max() - angles.min() > 1.5 * math.pi
     assert all((one.standoff_error or 9) < 1.5 for one in by["learnt"].results)
+
+
+def test_a_stand_off_that_the_policy_does_not_keep_is_told_and_measured(run: Run) -> None:
+    told = "SurveyTarget: the policy keeps at most 8 m, the plan asks 9.5 m"  # round a pile
+    done = run(survey(), survey="learnt")
+    assert [one.outcome for one in done.results] == ["done", "done"]
+    assert all(1 < (one.standoff_error or 0) < 2.5 for one in done.results)
+    for number in (1, 2):
+        assert told in [line["text"] for line in lines(done, number) if line["kind"] == "event"]
 
 
 @pytest.mark.parametrize("slot", ["goto", "survey"])
