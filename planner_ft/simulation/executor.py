@@ -14,7 +14,7 @@ import numpy as np
 
 from planner_ft.simulation.fast import Bools, Runs
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.skill import Job, implementation_of
+from planner_ft.simulation.skill import Job, ask, build
 
 if TYPE_CHECKING:
     from planner_ft.simulation.measures import Observer
@@ -47,19 +47,19 @@ class Running:
 
     def __init__(self, stage: Stage, scene: Scene) -> None:
         self.stage = stage
-        self.skills = [implementation_of(job)(job, scene) for job in stage.jobs]
+        self.skills = [build(job, scene) for job in stage.jobs]
         self.movement, self.sensors = self.skills[0], self.skills[1 + len(stage.filters) :]
         self.wrong: dict[int, str] = {}
         """The runs in which a skill, such as a learnt policy, gave no finite command."""
 
     def start(self, runs: Runs) -> None:
         for skill in self.skills:
-            skill.start(runs)
+            ask(skill, "start", runs)
 
     def step(self, runs: Runs, scene: Scene) -> None:
         command = np.zeros((len(runs), 4))
         for skill in self.skills:
-            command = skill.step(runs, command)
+            command = ask(skill, "step", runs, command)
             wrong = ~np.isfinite(command).all(axis=1)
             self.wrong |= {int(run): skill.job.skill for run in runs[wrong]}
             command[wrong] = 0.0
@@ -70,30 +70,30 @@ class Running:
         scene.command[runs] = command
 
     def done(self, runs: Runs) -> Bools:
-        done = self.movement.done(runs)
-        for sensor in self.sensors if self.movement.waits else ():
-            done = done & sensor.done(runs)
-        return done
+        waiting = self.sensors if self.movement.waits else []
+        done = [ask(skill, "done", runs) for skill in (self.movement, *waiting)]
+        return np.asarray(np.logical_and.reduce(done))
 
     def failures(self, runs: Runs) -> dict[int, tuple[str, str]]:
         """(failure mode, sentence) of the runs in which a skill has failed or the step is late."""
         wrong = {run: name for run, name in self.wrong.items() if run in runs}
         found = {run: ("", f"{name}: its command is not finite") for run, name in wrong.items()}
         for skill in self.skills:
-            for run in runs[skill.failed(runs)]:
-                found.setdefault(int(run), (skill.job.failure, skill.why))
-        late = runs[self.movement.elapsed(runs) > self.stage.patience]
+            for run in runs[ask(skill, "failed", runs)]:
+                found.setdefault(int(run), (skill.job.failure, ask(skill, "why", runs)))
+        late = runs[ask(self.movement, "elapsed", runs) > self.stage.patience]
         for run in late:
-            waiting = self.sensors if self.movement.waits else []
-            silent = next((one for one in waiting if not one.done(np.array([run]))[0]), None)
+            waiting, only = self.sensors if self.movement.waits else [], np.array([run])
+            silent = next((one for one in waiting if not ask(one, "done", only)[0]), None)
             mode, seconds = self.movement.job.failure, f"{self.stage.patience:.0f} s"
-            what = f"{silent.job.skill}: nothing found" if silent else self.movement.why
+            why = f"{silent.job.skill}: nothing found" if silent else ""
+            what = why or ask(self.movement, "why", only)
             found.setdefault(int(run), (mode, f"{what} after {seconds}"))
         return found
 
     def stop(self, runs: Runs) -> None:
         for skill in self.skills:
-            skill.stop(runs)
+            ask(skill, "stop", runs)
 
 
 class Executor:

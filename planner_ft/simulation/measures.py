@@ -13,7 +13,7 @@ from planner_ft.document.structures import SAME
 from planner_ft.simulation.executor import Executor, Running
 from planner_ft.simulation.fast import Bools, Floats, Runs
 from planner_ft.simulation.scene import Scene
-from planner_ft.simulation.skill import Job, Skill
+from planner_ft.simulation.skill import Job, Skill, ask
 from planner_ft.simulation.world import PILE, Fence, Reach
 
 
@@ -122,7 +122,7 @@ class Observer:
 
     def finished(self, skill: Skill, runs: Runs) -> None:
         """Take the errors at the end of a step."""
-        for run, error in zip(runs, skill.errors(runs).get("waypoint", ()), strict=False):
+        for run, error in zip(runs, ask(skill, "errors", runs).get("waypoint", ()), strict=False):
             self.waypoints[run].append(float(error))
 
     def observed(self, groups: Sequence[tuple[Running, Runs]], active: Bools) -> None:
@@ -158,7 +158,7 @@ class Observer:
 
     def _step(self, running: Running, runs: Runs) -> None:
         stage, scene = running.stage, self.scene
-        here, errors = scene.pose[runs, :2], running.movement.errors(runs)
+        here, errors = scene.pose[runs, :2], ask(running.movement, "errors", runs)
         held, kept = errors.get("holding"), errors.get("standoff")
         if held is not None:
             self.holding[runs] += held

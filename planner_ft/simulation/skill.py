@@ -5,8 +5,10 @@ A skill of a package of one's own, such as a learnt policy, is an entry point of
 `implementation = "that entry point"`.
 """
 
+import contextlib
 import functools
-from collections.abc import Mapping
+import traceback
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -105,6 +107,80 @@ class Skill:
     def elapsed(self, runs: Runs) -> Floats:
         """Seconds since the start (n,)."""
         return self.scene.time - self.begun[runs]
+
+
+SHAPES: Mapping[str, tuple[type, tuple[int, ...]]] = {
+    "step": (float, (4,)),
+    **dict.fromkeys(("done", "failed"), (bool, ())),
+    **dict.fromkeys(("elapsed", "errors"), (float, ())),
+}
+"""What methods of a skill return: numbers of a type, and their shape for one run."""
+
+
+def build(job: Job, scene: Scene) -> Skill:
+    """The skill of a job. Raises PlannerError that names a skill that cannot be made."""
+    kind = implementation_of(job)
+    with _naming(job, f"{kind.__name__}()"):
+        made = kind(job, scene)
+        if not hasattr(made, "begun"):
+            raise TypeError("its __init__ does not call super().__init__(job, scene)")
+    return made
+
+
+def check(job: Job, vessel: Vessel) -> None:
+    """Raise PlannerError for a job whose skill is not there or cannot do it."""
+    kind = implementation_of(job)
+    with _naming(job, f"{kind.__name__}.check"):
+        kind.check(job, vessel)
+
+
+def ask(skill: Skill, what: str, runs: Runs, *given: Any) -> Any:
+    """What a method of a skill returns for runs, `why` as a text. Raises PlannerError that names
+    the skill where it raises, or returns another shape than the method must have.
+    """
+    name = f"{type(skill).__name__}.{what}"
+    with _naming(skill.job, name, runs):
+        if what == "why":
+            return str(skill.why)
+        found = getattr(skill, what)(runs, *given)
+        if what == "errors":
+            return {key: _shaped(one, what, skill, runs) for key, one in found.items()}
+        return _shaped(found, what, skill, runs) if what in SHAPES else None
+
+
+def _shaped(found: Any, what: str, skill: Skill, runs: Runs) -> Any:
+    """What a method returned as an array; one number or truth value holds for all runs."""
+    kind, more = SHAPES[what]
+    wanted, shape = (len(runs), *more), np.shape(found)
+    if not (shape or more) and found is not None:
+        return np.full(wanted, found, dtype=kind)
+    if shape != wanted:
+        told = f"shape {shape}" if shape else repr(found)
+        problem = f"{type(skill).__name__}.{what} returned {told} instead of shape {wanted}"
+        raise PlannerError(f"{_place(skill.job, runs)}: {problem}; mend the skill")
+    return np.array(found, dtype=kind)
+
+
+@contextlib.contextmanager
+def _naming(job: Job, what: str, runs: Runs | None = None) -> Iterator[None]:
+    """Tell in one sentence what a skill raises."""
+    try:
+        yield
+    except (PlannerError, MemoryError):
+        raise
+    except Exception as error:
+        at = traceback.extract_tb(error.__traceback__)[-1]
+        line = f"{Path(at.filename).name}, line {at.lineno}"
+        problem = " ".join(f"{what} raised {type(error).__name__} ({error}) at {line}".split())
+        raise PlannerError(f"{_place(job, runs)}: {problem}; mend the skill") from error
+
+
+def _place(job: Job, runs: Runs | None) -> str:
+    """The skill with its task and step, and the runs that it is asked for."""
+    numbers = [int(run) + 1 for run in runs] if runs is not None else []
+    more = f" and {len(numbers) - 1} more" if numbers[1:] else ""
+    where = f", run {numbers[0]}{more}" if numbers else ""
+    return f"[skill.{job.skill}], {job.task} step {job.step + 1}{where}"
 
 
 def implementation_of(job: Job) -> type[Skill]:

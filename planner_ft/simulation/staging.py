@@ -23,7 +23,7 @@ from planner_ft.simulation.checking import check_measure
 from planner_ft.simulation.executor import Stage
 from planner_ft.simulation.fast import Vessel
 from planner_ft.simulation.measures import Bound, Ring
-from planner_ft.simulation.skill import Job, implementation_of
+from planner_ft.simulation.skill import Job, check
 from planner_ft.simulation.world import PILE, Fence, Reach, World
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.definition import Motion
@@ -224,7 +224,7 @@ class Staging:
         """Raise PlannerError for a skill without implementation and an unknown measure."""
         for stage in stages:
             for job in stage.jobs:
-                implementation_of(job).check(job, self.vessel)
+                check(job, self.vessel)
                 check_measure(job.skill, job.settings, self.vocabulary)
 
     def home(self) -> Stage:

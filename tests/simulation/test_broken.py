@@ -184,6 +184,58 @@ def test_what_is_no_number_stops_its_run_and_is_told(
     assert results[0]["seconds"] < 4 < results[1]["seconds"]
 
 
+def raises(_self: Any, _runs: Any, *_given: Any) -> Any:
+    raise KeyError("weights")
+
+
+def makes_nothing(self: Any, job: Any, scene: Any) -> None:
+    self.job, self.scene = job, scene
+
+
+AT = "[skill.GoToXY], t1 step 1"
+
+
+@pytest.mark.parametrize(
+    ("method", "own", "sentence"),
+    [
+        ("step", raises, f"{AT}, run 1 and 1 more: Follow.step raised KeyError ('weights') at "),
+        (
+            "step",
+            lambda _self, runs, _given: np.zeros((len(runs), 2)),
+            "step returned shape (2, 2)",
+        ),
+        ("done", lambda *_given: None, "done returned None instead of shape (2,); mend the skill"),
+        ("failed", lambda *_given: [True], "failed returned shape (1,) instead of shape (2,)"),
+        ("errors", lambda *_given: {"holding": np.zeros(3)}, "errors returned shape (3,)"),
+        ("start", raises, "Follow.start raised KeyError"),
+        ("check", raises, f"{AT}: Follow.check raised KeyError"),
+        ("__init__", makes_nothing, "does not call super().__init__(job, scene)"),
+    ],
+)
+def test_a_broken_skill_is_named(
+    method: str,
+    own: Any,
+    sentence: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Any,
+) -> None:
+    monkeypatch.setattr(Follow, method, own)
+    path = saved(tmp_path, [transit(15, 0)])
+    assert command(monkeypatch, path, "--runs", 2, "--mcap", 0) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert sentence in told and "mend the skill" in told and "Traceback" not in told
+
+
+def test_one_truth_value_holds_for_all_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(output, "track_svg", lambda _done: "<svg/>")
+    monkeypatch.setattr(Follow, "failed", lambda *_given: False)
+    done = simulate(SimulationSettings(saved(tmp_path, [transit(3, 0)]), runs=2, mcap=0))
+    assert all(one.success for one in done.results)
+
+
 def test_two_runs_into_one_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(output, "track_svg", lambda _done: "<svg/>")
     settings = SimulationSettings(saved(tmp_path, SHORT), runs=1, mcap=0, overwrite=True)
