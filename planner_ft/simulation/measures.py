@@ -16,6 +16,9 @@ from planner_ft.simulation.scene import Scene
 from planner_ft.simulation.skill import Job, Skill, ask
 from planner_ft.simulation.world import PILE, Fence, Reach
 
+FASTER = 1.1
+"""Times a limit of speed above which it is broken: the autopilot swings over it by up to 8 %."""
+
 
 @dataclass(frozen=True)
 class Ring:
@@ -40,14 +43,23 @@ class Ring:
 
 @dataclass(frozen=True)
 class Bound:
-    """A limit of the plan in words, with the area that it keeps to or the seconds that the mission
-    may take; with `tasks` (ids) it holds for those alone, and its seconds for each of them.
+    """A limit of the plan in words, with the area that it keeps to, the seconds that the mission
+    may take or the m/s over ground that it may go at; with `tasks` (ids) it holds for those alone,
+    and its seconds for each of them.
     """
 
     text: str
     area: Fence | Reach | None = None
     seconds: float = math.inf
     tasks: frozenset[str] = frozenset()
+    speed: float = math.inf
+
+    @property
+    def broken(self) -> str:
+        """What it means to break it, in words."""
+        if self.area is not None:
+            return "fence crossed"
+        return "speed exceeded" if self.speed < math.inf else "time exceeded"
 
 
 @dataclass(frozen=True)
@@ -68,6 +80,7 @@ class RunResult:
     fence_violations: int
     clearance_violations: int
     time_violations: int
+    speed_violations: int
     clearance: float | None
     energy: float
     charge_left: float
@@ -83,6 +96,7 @@ VIOLATIONS = {
     "fence_violations": "fences crossed",
     "clearance_violations": "stand-offs cut",
     "time_violations": "times exceeded",
+    "speed_violations": "speeds exceeded",
 }
 """Figures that count broken limits, in words."""
 METRICS = [one.name for one in fields(RunResult)][3:-2]  # figures of a run that have a mean
@@ -108,7 +122,12 @@ class Observer:
         self.spent: dict[str, Floats] = defaultdict(lambda: np.zeros(count))  # seconds by task
         self.inside = np.zeros((count, len(structures)), dtype=bool)
         self.fence_violations, self.clearance_violations = np.zeros((2, count), dtype=int)
-        self.time_violations = np.zeros(count, dtype=int)
+        self.time_violations, self.speed_violations = np.zeros((2, count), dtype=int)
+        self.counts = {
+            "fence crossed": self.fence_violations,
+            "time exceeded": self.time_violations,
+            "speed exceeded": self.speed_violations,
+        }
         self.records: list[Counter[str]] = [Counter() for _run in range(count)]
         self.reached: dict[str, Bools] = {}  # per task the runs that have come to its stand-off
         self.last = scene.pose[:, :2].copy()
@@ -145,15 +164,16 @@ class Observer:
                 over = np.zeros(len(runs), dtype=bool)
             elif bound.area is not None:
                 over = bound.area.outside_by(scene.pose[runs, :2]) > 0
+            elif bound.speed < math.inf:
+                most = bound.speed * np.where(self.over[runs, index], 1.0, FASTER)
+                over = np.linalg.norm(scene.twist[runs, :2], axis=1) > most
             else:
                 gone = self.spent[task][runs] if bound.tasks else np.full(len(runs), scene.time)
                 over = gone > bound.seconds + scene.seconds / 2
-            count = self.time_violations if bound.area is None else self.fence_violations
             fresh = over & ~self.over[runs, index]
-            count[runs] += fresh
-            what = "time exceeded" if bound.area is None else "fence crossed"
+            self.counts[bound.broken][runs] += fresh
             for run in runs[fresh]:
-                self._tell(run, f"{what}: {bound.text}")
+                self._tell(run, f"{bound.broken}: {bound.text}")
             self.over[runs, index] = over
 
     def _step(self, running: Running, runs: Runs) -> None:
@@ -204,6 +224,7 @@ class Observer:
             int(self.fence_violations[run]),
             int(self.clearance_violations[run]),
             int(self.time_violations[run]),
+            int(self.speed_violations[run]),
             round(float(self.least[run]), 2) if np.isfinite(self.least[run]) else None,
             round(float(scene.energy[run]), 1),
             round(float(scene.charge[run] / scene.vessel.capacity), 3),

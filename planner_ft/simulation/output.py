@@ -125,6 +125,7 @@ COLUMNS = {
     "fence_violations": ("fences crossed ↓", 1, 2),
     "clearance_violations": ("stand-offs cut ↓", 1, 2),
     "time_violations": ("times exceeded ↓", 1, 2),
+    "speed_violations": ("speeds exceeded ↓", 1, 2),
     "energy": ("thrust kN s ↓", 1e-3, 2),
 }
 """Columns by figure: heading, factor and decimals."""

@@ -81,7 +81,7 @@ class Staging:
 
     @functools.cached_property
     def bounds(self) -> list[Bound]:
-        """The limits on place and time, and the area of the vehicle, that runs are watched for."""
+        """The limits on place, time and speed, and the area of the vehicle, that runs are watched for."""
         found = []
         for limit in self.limits:
             kind, values, text = limit["kind"], limit["values"], limit["text"].rstrip(".")
@@ -93,6 +93,8 @@ class Staging:
                 found.append(Bound(text, reach, tasks=held))
             elif kind == "duration":
                 found.append(Bound(text, seconds=float(values["duration"]), tasks=held))
+            elif kind == "speed":
+                found.append(Bound(text, tasks=held, speed=float(values["speed"])))
             elif kind == "return" and (left := time_left(values)) is not None:
                 found.append(Bound(text, seconds=left))
         if area := self.document["vehicle"]["area"]:

@@ -344,6 +344,21 @@ def test_limits_of_one_task_hold_for_it_alone(run: Run) -> None:
     assert slow > 150 > free
 
 
+def test_a_speed_that_is_exceeded_is_counted_in_the_tasks_of_its_limit(run: Run) -> None:
+    drift = using(step("DriftWithCurrent", {"time": 20}))
+    tasks = [transit(5, 0), task("DriftAudit", {"duration": 20}, [drift])]
+    for title, times in (("DriftAudit", 1), ("Transit", 0)):
+        limit = f"The vehicle goes no faster than 0.6 m/s during {title}."
+        how: Any = {"how": {"constraints": [limit]}, "faults": read_faults(["current=1/90@15"])}
+        done = run(tasks, **how)
+        assert [one.speed_violations for one in done.results] == [times, times]
+        told = [line["text"] for line in lines(done) if line["kind"] == "event"]
+        exceeded = [text.split(", at [")[0] for text in told if "exceeded" in text]
+        assert exceeded == [f"speed exceeded: {limit[:-1]}"] * times
+        broken = "2 broke limits of the plan: speeds exceeded 2"
+        assert (broken in output.outcome_lines(done.results)[0]) == (times == 1)
+
+
 def test_a_stand_off_that_is_cut_is_told(run: Run) -> None:
     # The chart is wrong: the buoy truly stands beside the way.
     chart, there = {"chart": {"wreck buoy": (20.0, 60.0)}}, {"wreck buoy": (20.0, 4.0)}
