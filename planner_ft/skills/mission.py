@@ -173,7 +173,7 @@ class LearntSurvey(Movement):
     @property
     def kept(self) -> str:
         """What it keeps instead of the stand-off that the plan asks for; empty where it does."""
-        if self.asked == self.standoff:
+        if abs(self.asked - self.standoff) < 0.05:  # the decimals that are shown
             return ""
         most = "most" if self.asked > self.standoff else "least"
         return f"the policy keeps at {most} {self.standoff:g} m, the plan asks {self.asked:.1f} m"

@@ -16,6 +16,7 @@ from safetensors.torch import load_file, save_file
 
 from planner_ft.simulation.asked import read_outlines
 from planner_ft.simulation.run import Simulated, SimulationSettings
+from planner_ft.skills.mission import LearntSurvey
 from planner_ft.skills.policies import SHIPPED
 from planner_ft.support.errors import PlannerError
 from tests.documents import DRONE, step, task
@@ -83,6 +84,14 @@ def test_a_stand_off_that_the_policy_does_not_keep_is_told_and_measured(run: Run
     assert all(1 < (one.standoff_error or 0) < 2.5 for one in done.results)
     for number in (1, 2):
         assert told in [line["text"] for line in lines(done, number) if line["kind"] == "event"]
+
+
+def test_a_stand_off_that_rounding_alone_moves_is_not_told() -> None:
+    flown = LearntSurvey.__new__(LearntSurvey)
+    flown.asked, flown.standoff = 3 - 1e-15, 3.0
+    assert not flown.kept
+    flown.asked = 1.75
+    assert flown.kept == "the policy keeps at least 3 m, the plan asks 1.8 m"
 
 
 @pytest.mark.parametrize("slot", ["goto", "survey"])
