@@ -19,7 +19,14 @@ from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, read_text, write_text, writing
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
-from planner_ft.vocabulary.definition import BUNDLED, ESSENTIALS, MISSIONS, bundled_vocabularies
+from planner_ft.vocabulary.definition import (
+    BUNDLED,
+    ESSENTIALS,
+    MISSIONS,
+    READ_WITH_IT,
+    bundled_vocabularies,
+    read_beside,
+)
 from planner_ft.vocabulary.essentials import load_essentials
 from planner_ft.vocabulary.limits import load_limits
 from planner_ft.vocabulary.plans import plan_names
@@ -108,10 +115,11 @@ def check_vehicle(source: str, simulation: Callable[[Vocabulary], Any] | None = 
     PlannerError for a definition that is not there.
     """
     source = _definition(source)
-    try:
-        vocabulary = load_vocabulary(source)
-    except PlannerError as error:
-        return [Part(Path(source).name, "every command", "wrong", str(error))]
+    broken, wrong = _wrong(source)
+    if broken:
+        path, own = Path(source), Part(Path(source).name, "every command", "wrong", broken)
+        return [own, *_alone(path, wrong)]
+    vocabulary = load_vocabulary(source, without=tuple(wrong))
     path = vocabulary.path
     assert path is not None
     size = f"{len(vocabulary.tasks)} tasks, {len(vocabulary.skills)} skills"
@@ -120,8 +128,40 @@ def check_vehicle(source: str, simulation: Callable[[Vocabulary], Any] | None = 
         Part(path.name, "every command", "ready", size + doubts),
         _part("mission/", "gen-data, train and bench --level mission", _mission_set, vocabulary),
         _part(f"{Path(vocabulary.source).stem}.commands.jsonl", SYNTHETIC, _templates, vocabulary),
-        *_beside(vocabulary, path, simulation),
+        *_beside(vocabulary, path, wrong, simulation),
     ]
+
+
+def _wrong(source: str) -> tuple[str, dict[str, str]]:
+    """What is wrong with a definition, and with each file that is read with it, by ending."""
+    broken, wrong = _problem(source, READ_WITH_IT), dict[str, str]()
+    for ending in READ_WITH_IT:
+        found = _problem(source, tuple(one for one in READ_WITH_IT if one != ending))
+        # The definition's own problems come first, where there are any.
+        if found != broken:
+            wrong[ending] = found.removeprefix(f"{broken}; ")
+    return broken, wrong
+
+
+def _problem(source: str, without: tuple[str, ...]) -> str:
+    try:
+        load_vocabulary(source, without=without)
+    except PlannerError as error:
+        return str(error)
+    return ""
+
+
+def _alone(path: Path, wrong: dict[str, str]) -> Iterator[Part]:
+    """The files beside a broken definition that are wrong by themselves."""
+    for kind, serves, _without, _reader in FILES:
+        file, ending = path.with_suffix(f".{kind}.toml").name, f".{kind}.toml"
+        try:
+            read_beside(path, ending, path.stem)
+            text = wrong.get(ending)
+        except PlannerError as error:
+            text = str(error)
+        if text:
+            yield Part(file, serves, "wrong", text)
 
 
 def _part(
@@ -158,13 +198,19 @@ def _doubts(vocabulary: Vocabulary) -> Iterator[str]:
 
 
 def _beside(
-    vocabulary: Vocabulary, path: Path, simulation: Callable[[Vocabulary], Any] | None
+    vocabulary: Vocabulary,
+    path: Path,
+    wrong: dict[str, str],
+    simulation: Callable[[Vocabulary], Any] | None,
 ) -> Iterator[Part]:
+    """The files beside a definition that is read, without those that are `wrong`."""
     for kind, serves, without, reader in FILES:
         load = simulation if kind == "simulation" else reader
         file = path.with_suffix(f".{kind}.toml")
         state: State = "ready" if file.is_file() else "missing"
         try:
+            if problem := wrong.get(f".{kind}.toml"):
+                raise PlannerError(problem)
             if unknown := _undefined(vocabulary.beside(f".{kind}.toml"), vocabulary):
                 named_so = f"{', '.join(unknown)}: the definition has no such name"
                 raise PlannerError(f"{file.name}: {named_so}; correct it, or remove the table")

@@ -29,6 +29,7 @@ MISSIONS, LIMITS, ESSENTIALS = ".missions.toml", ".limits.toml", ".essentials.to
 SIMULATION, LOGIC, MOTION = ".simulation.toml", ".logic.toml", ".motion.toml"
 UNHASHED = (LOGIC, MOTION, VEHICLE, ONTOLOGY, MISSIONS, LIMITS, ESSENTIALS, SIMULATION)
 """Files beside a definition that no prompt, schema or grammar, and so no adapter depends on."""
+READ_WITH_IT = (PHRASES, LOGIC, MOTION)
 
 
 @dataclass(frozen=True)
@@ -230,10 +231,7 @@ class Vocabulary:
 
     def beside(self, ending: str) -> dict[str, Any]:
         """The file NAME + `ending` beside the definition ({} without). Raises PlannerError."""
-        raw = _beside(self.path, ending) if self.path else {}
-        if raw and (problem := checks.shape_of_file(raw, ending)):
-            raise PlannerError(f"{self.name}{ending}: {problem}")
-        return raw
+        return read_beside(self.path, ending, self.name) if self.path else {}
 
     def skills_in_role(self, role: Role) -> tuple[Skill, ...]:
         """Skills that can stand in `role`, in the order of the definition."""
@@ -248,8 +246,10 @@ def bundled_vocabularies() -> list[str]:
 
 
 @functools.lru_cache(maxsize=16)
-def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
-    """Load a bundled definition ("usv") or a path. Raises PlannerError listing all problems."""
+def load_vocabulary(source: str | Path = DEFAULT, *, without: tuple[str, ...] = ()) -> Vocabulary:
+    """Load a bundled definition ("usv") or a path. Raises PlannerError listing all problems. Files
+    beside it with an ending in `without` are not read.
+    """
     bundled = BUNDLED / f"{source}.toml"
     path = bundled if str(source).isidentifier() and bundled.is_file() else Path(source)
     if not path.is_file():
@@ -258,7 +258,9 @@ def load_vocabulary(source: str | Path = DEFAULT) -> Vocabulary:
             f" ({', '.join(bundled_vocabularies())})"
         )
     raw = read_toml(path)
-    phrases, logic, motion = (_beside(path, ending) for ending in (PHRASES, LOGIC, MOTION))
+    phrases, logic, motion = (
+        {} if ending in without else _beside(path, ending) for ending in READ_WITH_IT
+    )
     vocabulary = build_vocabulary(raw, phrases, str(path), logic=logic, motion=motion)
     return replace(vocabulary, path=path, source=str(source), sha256=sha256_text(read_text(path)))
 
@@ -282,6 +284,16 @@ def build_vocabulary(
     if problems:
         raise PlannerError(f"{where}: " + "; ".join(problems))
     return replace(vocabulary, logic=_logic(logic), motion=_motions(motion))
+
+
+def read_beside(path: Path, ending: str, name: str) -> dict[str, Any]:
+    """The file `name` + `ending` beside a definition ({} without one), its shape checked. Raises
+    PlannerError.
+    """
+    raw = _beside(path, ending)
+    if raw and (problem := checks.shape_of_file(raw, ending)):
+        raise PlannerError(f"{name}{ending}: {problem}")
+    return raw
 
 
 def _beside(path: Path, ending: str) -> dict[str, Any]:

@@ -110,6 +110,25 @@ def test_a_broken_definition_is_all_that_is_said(rover: Path) -> None:
     assert part.state == "wrong" and "arrival = 'nowhere'" in part.text
 
 
+@pytest.mark.parametrize("broken", [False, True])
+def test_a_mistake_in_one_file_hides_none_in_another(rover: Path, broken: bool) -> None:
+    """Beside a definition that is right or wrong itself."""
+    motion, own = (rover.with_suffix(f".{kind}.toml") for kind in ("motion", "vehicle"))
+    motion.write_text(f"{motion.read_text()}\n[skill.Nobody]\nmotion = 'hold'\n")
+    rover.with_suffix(".phrases.toml").write_text("[task\n")
+    own.write_text("cruise_speed =\n")
+    if broken:
+        text = rover.read_text()
+        rover.write_text(text.replace('navigation = ["', 'navigation = ["Flight", "', 1))
+    parts = {part.file: part for part in check_vehicle(str(rover))}
+    wrong = {file: part.text for file, part in parts.items() if part.state == "wrong"}
+    files = {f"my_rover.{kind}.toml" for kind in ("motion", "phrases", "vehicle")}
+    assert files <= wrong.keys() and (rover.name in wrong) == broken
+    assert "skill Nobody: it is not defined" in wrong["my_rover.motion.toml"]
+    assert "Flight" not in wrong["my_rover.motion.toml"]
+    assert broken or parts["mission/"].state == "ready"
+
+
 def test_a_folder_is_its_one_definition(rover: Path, tmp_path: Path) -> None:
     assert check_vehicle(str(rover.parent)) == check_vehicle(str(rover))
     for source in (tmp_path, tmp_path / "nowhere"):
