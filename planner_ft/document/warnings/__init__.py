@@ -78,6 +78,7 @@ CHECKS: tuple[Check, ...] = (
     *(route.performed, places.passed_elsewhere),
     *(places.unmoved, places.round_home, repeats.intervals, repeats.endless, repeats.to_and_fro),
     *(directions.begun_otherwise, said.measures, said.unclear, said.bare_numbers),
+    said.uncounted,
     *(
         directions.sides,
         said.instead_of,

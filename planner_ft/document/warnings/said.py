@@ -8,6 +8,7 @@ import dataclasses
 import functools
 import itertools
 import re
+from collections import Counter
 from collections.abc import Iterator
 
 from planner_ft.document.language import ends_with
@@ -40,6 +41,8 @@ NEAR = 12  # characters before words in which they are ruled out
 APART = 0.5  # metres beyond a line
 WAY = 16  # characters between a length and the direction in which it lies
 HOURS = 12  # the last one: "at six" is a time of day
+REPEATED = 3  # words behind a count of which one says what is repeated: "two right hand laps"
+THING = re.compile(r"[ -]([a-z]{3,})", re.IGNORECASE)
 WORD = re.compile(r"\S+")
 """The first or second behind a count says what is repeated: "three full revolutions"."""
 
@@ -196,6 +199,39 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         bare = bare or number.value < 0 or _is_distance(number, case)
         if number.start in apart or ((bare or instead or behind) and not known):
             yield case.lost(number.start, number.end)
+
+
+def uncounted(case: Case) -> Iterator[Warning]:
+    """Numbers right before a word for a thing ("6 oxygen bottles") that nothing in the plan has, and
+    that count neither its tasks nor the places of the command; rounds are told by `repeats`.
+    """
+    titles = Counter(task["title"] for task in case.tasks)
+    known = {len(case.positions), *titles.values()}
+    known.add(len(case.tasks) - titles[case.vocabulary.transit] - titles[case.vocabulary.locate])
+    for number in () if case.source.facts.unread else case.numbers:
+        many = number.unit is None and number.value >= 2 and number.value.is_integer()
+        told = number.value in known or not case.wants(number.start)
+        counts = many and not told and _is_before_thing(number, case)
+        if counts and not case.plan.says(number.value):
+            yield case.lost(number.start, number.end)
+
+
+def _is_before_thing(number: Number, case: Case) -> bool:
+    """Whether a number, no coordinate, stands right before a word that is no small one."""
+    start, end = number.start, number.end
+    thing, clause = THING.match(case.text, end), case.clause_at(start)
+    if not thing or not clause or any(one.start == thing.start(1) for one in case.numbers):
+        return False
+    small = ("boundary", "determiner", "nothing", "verb", "extent", "shots", "off_it")
+    behind = itertools.islice(WORD.finditer(case.text, end, clause.end), REPEATED)
+    repeated = any(case.words["repeats"].match(case.text, one.start()) for one in behind)
+    if repeated or any(case.words[name].match(thing[1]) for name in small):
+        return False
+    # "0930 diagnostics": a time of day begins what is done then.
+    begins = not case.text[clause.start : start].strip()
+    timed = CLOCK.match(case.text, end) or (begins and HOUR.fullmatch(case.text[start:end]))
+    inside = any(place.start <= start < place.end for place in case.positions)
+    return not (timed or inside or case.is_coordinate(number))
 
 
 def instead_of(case: Case) -> Iterator[Warning]:

@@ -605,3 +605,31 @@ def test_a_task_that_is_done_again_at_once_is_told(
 ) -> None:
     plan = document([to(9, 9), *tasks], command=command)
     assert [one["id"] for one in plan["warnings"]].count("value-not-said:t3:asked") == count
+
+
+@pytest.mark.parametrize(
+    ("command", "lost"),
+    [
+        ("Deliver 6 oxygen bottles to [20, 30].", ["6"]),
+        ("Deliver six oxygen bottles to [20, 30].", ["six"]),
+        ("Go to [20, 30] and count the 4 buoys.", ["4"]),
+        ("Take a dozen bottles to [20, 30], not 6 crates.", ["a dozen"]),
+        ("Go to buoy 6 at [20, 30].", []),
+        ("0930 diagnostics, go to [20, 30], home by fourteen thirty.", []),
+        ("Do two things: go to [20, 30] and look at the 2 cranes at [40, 50].", []),
+        ("Look at the [20, 30] bottles.", []),
+    ],
+)
+def test_a_number_of_things_that_nothing_in_the_plan_has_is_lost(
+    command: str, lost: list[str]
+) -> None:
+    places = [to(20, 30)] + ([to(40, 50)] if "40" in command else [])
+    found = document(places, command=command)["warnings"]
+    told = [one for one in found if one["kind"] == "value-lost"]
+    assert [one["text"].split('"')[1] for one in told] == lost
+
+
+def test_a_number_of_things_that_the_plan_speaks_of_is_kept() -> None:
+    prompt = "Deliver 6 oxygen bottles at [20, 30]."
+    go = task("Transit", {"target_position": [20, 30]}, None, prompt)
+    assert kinds("Deliver 6 oxygen bottles to [20, 30].", go) == set()
