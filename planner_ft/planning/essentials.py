@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.planning.limits import forbidden_skills, kept_off
-from planner_ft.vocabulary import Skill, Vocabulary
+from planner_ft.vocabulary import Parameter, Skill, Vocabulary
 from planner_ft.vocabulary.essentials import essentials_of
 from planner_ft.vocabulary.plans import canonical_parameters, step_skills
 
@@ -60,9 +60,10 @@ def question(number: int, task: TaskEntry, vocabulary: Vocabulary) -> str | None
     return f"Task {number}, {task['title']}: which {listed}?"
 
 
-def _described(parameter: Any) -> str:
-    unit = f", in {parameter.unit}" if parameter.unit not in (None, "count") else ""
-    return f"{parameter.description or parameter.type}{unit}"
+def _described(parameter: Parameter) -> str:
+    unit = f"in {parameter.unit}" if parameter.unit not in (None, "count") else ""
+    parts = (parameter.description or parameter.type, unit, parameter.bounds)
+    return ", ".join(filter(None, parts))
 
 
 # ---------------------------------------------------------------- skills

@@ -44,6 +44,13 @@ class Parameter:
     maximum: float | None = None
     description: str = ""
 
+    @property
+    def bounds(self) -> str:
+        """Its least and largest value, as "0 to 10000"; empty without bounds."""
+        if self.minimum is None or self.maximum is None:
+            return ""
+        return f"{self.minimum:.15g} to {self.maximum:.15g}"
+
 
 class _Owner:
     """A task or a skill, which has parameters."""

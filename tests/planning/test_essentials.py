@@ -69,6 +69,7 @@ def test_what_must_be_asked_keeps_the_task_waiting_with_one_question(known: Know
     assert len(engine.asked) == 1
     assert made["tasks"][0]["skill_sequence"] is None and not made["complete"]
     assert len(made["questions"]) == 1 and "width" in made["questions"][0]
+    assert "in m, 0 to 100000)" in made["questions"][0]
     assert [one["kind"] for one in made["warnings"]].count("value-asked") == 1
     assert "(skills wait for width and length)" in plan_tree(made)
     with pytest.raises(PlannerError, match="width and length must be known"):

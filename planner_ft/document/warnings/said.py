@@ -19,6 +19,7 @@ from planner_ft.facts.clock import read_times
 from planner_ft.facts.inputs import SIDES
 from planner_ft.facts.places import is_course, read_bearings, read_positions, rows_of_sizes
 from planner_ft.facts.together import REREAD, neighbours
+from planner_ft.facts.units import named
 from planner_ft.vocabulary import Vocabulary
 
 CLOCK = re.compile(r"\s*(?:o['’]?clock|am\b|pm\b|utc\b|gmt\b|zulu\b|local\b|ago\b)", re.IGNORECASE)
@@ -81,9 +82,24 @@ def measures(case: Case) -> Iterator[Warning]:
         later = [one for one in later if one.unit or one.start <= after]
         other = next((one for one in later if one.unit in (None, number.unit)), None)
         if other is None:
-            yield case.lost(wholes[0].start, wholes[0].end)
+            found, bounds = case.lost(wholes[0].start, wholes[0].end), _exceeded(wholes[0], case)
+            told = warning("value-lost", "bounds", text=found["text"].rstrip("."), bounds=bounds)
+            yield {**found, "text": told["text"]} if bounds else found
         else:
             instead.remove(other)
+
+
+def _exceeded(number: Number, case: Case) -> str:
+    """The bounds of the first task whose every parameter in the unit of a number ends before it."""
+    for task in case.tasks:
+        known = case.vocabulary.task[task["title"]].parameters
+        own = [(one, unit) for one in known if one.bounds and (unit := named(one.unit))]
+        own = [(one, unit) for one, unit in own if unit.base == number.unit]
+        beyond = ((one.maximum or 0) < unit.of_base(number.value) for one, unit in own)
+        if own and all(beyond):
+            listed = ", ".join(f"{one.name} is {one.bounds} {one.unit}" for one, _unit in own)
+            return f"{task['title']} has bounds: {listed}"
+    return ""
 
 
 def harm(case: Case) -> Iterator[Warning]:

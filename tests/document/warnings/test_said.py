@@ -633,3 +633,13 @@ def test_a_number_of_things_that_the_plan_speaks_of_is_kept() -> None:
     prompt = "Deliver 6 oxygen bottles at [20, 30]."
     go = task("Transit", {"target_position": [20, 30]}, None, prompt)
     assert kinds("Deliver 6 oxygen bottles to [20, 30].", go) == set()
+
+
+@pytest.mark.parametrize(
+    ("said", "bounds"), [("20000 m", True), ("20 km", True), ("9 km", False), ("20 km/h", False)]
+)
+def test_a_value_beyond_its_bounds_is_told_with_them(said: str, bounds: bool) -> None:
+    circle = task("PerformOrbit", {"center": [60, 40], "radius": 10}, None)
+    plan = document([circle], command=f"Circle the mast at [60,40] at {said}.")
+    found = [one["text"] for one in plan["warnings"] if one["kind"] == "value-lost"]
+    assert ["radius is 0 to 10000 m." in one for one in found] == [bounds]
