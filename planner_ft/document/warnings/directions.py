@@ -9,7 +9,7 @@ from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.language import ends_with
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, Point, bearing, place_of
-from planner_ft.document.warnings.case import FULL, Case, Warning, lost, skills_of
+from planner_ft.document.warnings.case import FULL, Case, Warning, lost, skills_of, warning
 from planner_ft.document.warnings.route import own_waypoints
 from planner_ft.document.warnings.said import CORRECTED, NO
 from planner_ft.facts import Number, is_number, near
@@ -134,6 +134,21 @@ def begun_otherwise(case: Case) -> Iterator[Warning]:
         turns = [abs((one - side + 180) % 360 - 180) for one in named for side in sides]
         if turns and min(turns) > HALF_SIDE and not clause.corrected:
             yield lost(clause.text.strip(" ,;."))
+
+
+def turned_by_bearing(case: Case) -> Iterator[Warning]:
+    """An angle round something for which a single direction of the command is all evidence: "east"
+    is no arc of 90 degrees.
+    """
+    found = read_bearings(case.text)
+    for task in case.tasks if len(found) == 1 else ():
+        known = case.vocabulary.task[task["title"]]
+        for one in known.parameters if known.pattern in ROUND else ():
+            name, value = one.name, task["parameters"].get(one.name)
+            turn = one.unit == "deg" and is_number(value) and near(value, found[0].value)
+            if turn and not case.source.evidence(value, one).mentions:
+                about = {"task": task, "parameter": name, "name": name, "value": f"{value:g} deg"}
+                yield warning("value-not-said", "unsaid", **about)
 
 
 def turned_otherwise(case: Case) -> Iterator[Warning]:

@@ -152,8 +152,8 @@ def _problem(task: Entry, names: list[str], known: Vocabulary) -> str | None:
     if known.task[task["title"]].pattern == "sectors":
         count, motions = task["parameters"].get("sectors"), map(known.motion.of, names)
         turns = sum(motion is not None and motion.kind in TURNS for motion in motions)
-        few = is_number(count) and turns < count - 1
-        return f"it turns {turns} times for {count:g} sectors" if few else None
+        off = is_number(count) and not count - 1 <= turns <= count + 1
+        return f"it turns {turns} times for {count:g} sectors" if off else None
     goals = (goal_of(step, known) for step in task["skill_sequence"])
     could = any(skill.coordinates for skill in known.skills)
     if task["title"] == known.transit and could and not any(goals):

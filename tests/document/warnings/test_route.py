@@ -161,7 +161,9 @@ def test_a_waypoint_for_clearance_is_none_of_a_pass() -> None:
     assert "97.4 m apart" in str(revise(plan, USV)["warnings"])
 
 
-@pytest.mark.parametrize(("turns", "named"), [(4, False), (3, False), (2, True)])
+@pytest.mark.parametrize(
+    ("turns", "named"), [(6, True), (5, False), (4, False), (3, False), (2, True)]
+)
 def test_a_panorama_of_four_sectors_needs_three_turns(turns: int, *, named: bool) -> None:
     looks = [step("RotateToHeading", {"heading": 90 * one}) for one in range(turns)]
     mixed = [*looks, step("StationKeep")]

@@ -47,6 +47,8 @@ def test_words_of_one_value_are_no_part_of_another() -> None:
         ("Round the barge at [9, 9] through 180 at 8 m.", 180, 0),
         ("Round the barge at [9, 9], 180 degrees, at 8 m.", 180, 0),
         ("Half round the barge at [9, 9] at 8 m.", 180, 0),
+        ("Round the barge east of the pier, [9, 9], at 8 m.", 90, 1),
+        ("A quarter of the way round the barge at [9, 9] from the east at 8 m.", 90, 0),
     ],
 )
 def test_a_turn_is_no_bare_number(command: str, arc: float, count: int) -> None:
