@@ -207,6 +207,9 @@ def instructions(case: Case) -> Iterator[Warning]:
     known = [case.words[name] for name in ("impossible", "home", "here", "stay")]
     known += [case.spoken.sensors, *(ask.said for ask in case.spoken.asks)]
     known += [data.said for data in case.spoken.data if data.ruled_out]
+    senses = [case.words[name] for name in ("clockwise", "anticlockwise")]
+    if any(one.search(task["task_prompt"]) for task in case.tasks for one in senses):
+        known.append(case.words["beam"])  # "keep it to port" is the sense of a round
     empty = [case.words[name] for name in ("nothing", "water", "boundary", "determiner")]
     for clause in told:
         text = clause.text.strip()

@@ -233,11 +233,16 @@ def uncounted(case: Case) -> Iterator[Warning]:
 
 
 def _is_before_thing(number: Number, case: Case) -> bool:
-    """Whether a number, no coordinate, stands right before a word that is no small one."""
+    """Whether a number of an order, no coordinate, stands right before a word that is no small
+    one.
+    """
     start, end = number.start, number.end
     thing, clause = THING.match(case.text, end), case.clause_at(start)
     if not thing or not clause or any(one.start == thing.start(1) for one in case.numbers):
         return False
+    before = case.text[clause.start : start]
+    if len(before.split()) > 1 and not case.words["verb"].search(before):
+        return False  # "We have 3 boats" is no order
     small = ("boundary", "determiner", "nothing", "verb", "extent", "shots", "off_it")
     behind = itertools.islice(WORD.finditer(case.text, end, clause.end), REPEATED)
     repeated = any(case.words["repeats"].match(case.text, one.start()) for one in behind)

@@ -35,6 +35,10 @@ SEARCH = task("SearchAndDetect", {"target_description": "buoy"}, [step("StationK
 THERE, BACK = to(30, 40), to(0, 0)
 
 
+def round_it(prompt: str) -> dict[str, Any]:
+    return task("PerformOrbit", {"center": [30, 40], "radius": 9, "arc": 360}, None, prompt)
+
+
 def told(command: str, *tasks: dict[str, Any], **planned_as: Any) -> list[str]:
     plan = document(tasks, command=command, **planned_as)
     return [one["id"] for one in plan["warnings"] if one["kind"] in KINDS]
@@ -296,3 +300,13 @@ def test_an_own_file_asks_a_task_for_what_others_cannot_do(
     flown = task("FlyToPoint", {"target_position": [3, 4]}, None, "Go.")
     plan = document([flown], drone, command="Take the blood samples to [3, 4].")
     assert ("not-planned" not in {one["kind"] for one in plan["warnings"]}) is asked
+
+
+@pytest.mark.parametrize(
+    ("prompt", "count"),
+    [("Circle it at [30, 40] anticlockwise at 9 m.", 0), ("Circle it at [30, 40] at 9 m.", 1)],
+)
+def test_the_side_on_which_it_is_kept_is_the_sense_of_a_round(prompt: str, count: int) -> None:
+    command = "Circle the pile at [30, 40] at 9 m. Keep it to port."
+    found = told(command, THERE, round_it(prompt))
+    assert len([one for one in found if "keep it to port" in one]) == count
