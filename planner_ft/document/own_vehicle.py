@@ -117,8 +117,8 @@ def check_vehicle(source: str, simulation: Callable[[Vocabulary], Any] | None = 
     source = _definition(source)
     broken, wrong = _wrong(source)
     if broken:
-        path, own = Path(source), Part(Path(source).name, "every command", "wrong", broken)
-        return [own, *_alone(path, wrong)]
+        own = Part(Path(source).name, "every command", "wrong", broken)
+        return [own, *_alone(Path(source), wrong)]
     vocabulary = load_vocabulary(source, without=tuple(wrong))
     path = vocabulary.path
     assert path is not None

@@ -4,6 +4,7 @@ import itertools
 import math
 import re
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.language import ends_with
@@ -147,8 +148,8 @@ def turned_by_bearing(case: Case) -> Iterator[Warning]:
             name, value = one.name, task["parameters"].get(one.name)
             turn = one.unit == "deg" and is_number(value) and near(value, found[0].value)
             if turn and not case.source.evidence(value, one).mentions:
-                about = {"task": task, "parameter": name, "name": name, "value": f"{value:g} deg"}
-                yield warning("value-not-said", "unsaid", **about)
+                about: Any = {"task": task, "parameter": name, "name": name}
+                yield warning("value-not-said", "unsaid", **about, value=f"{value:g} deg")
 
 
 def turned_otherwise(case: Case) -> Iterator[Warning]:
