@@ -12,7 +12,8 @@ from planner_ft.data.leakage import near_duplicate
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
 
-FILES = sorted(Path("data/operators").glob("*.jsonl"))
+TASKS = Path("data/operators/tasks.jsonl")
+FILES = [file for file in sorted(Path("data/operators").glob("*.jsonl")) if file != TASKS]
 MEASURED = [
     Path("data/mission/validation.jsonl"),
     Path("data/mission/test.jsonl"),
@@ -34,6 +35,12 @@ def test_no_command_of_operators_is_measured_with(measured: Path) -> None:
     records = _records()
     commands = [record.get("prompt") or record["command"] for record in read_jsonl(measured)]
     assert not [found for one in commands if (found := near_duplicate(one, records))]
+
+
+def test_no_task_of_operators_is_measured_with() -> None:
+    prompts = {record["prompt"] for record in read_jsonl(TASKS)}
+    for measured in sorted(Path("eval/challenge").glob("task*.jsonl")):
+        assert prompts.isdisjoint(record["prompt"] for record in read_jsonl(measured))
 
 
 def test_families_and_commands_are_apart_from_the_curated_ones() -> None:
