@@ -81,7 +81,7 @@ class Staging:
 
     @functools.cached_property
     def bounds(self) -> list[Bound]:
-        """The limits on place, time and speed, and the area of the vehicle, that runs are watched for."""
+        """The limits on place, time and speed, and the vehicle's area, that runs are watched for."""
         found = []
         for limit in self.limits:
             kind, values, text = limit["kind"], limit["values"], limit["text"].rstrip(".")

@@ -218,8 +218,8 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
 
 
 def uncounted(case: Case) -> Iterator[Warning]:
-    """Numbers right before a word for a thing ("6 oxygen bottles") that nothing in the plan has, and
-    that count neither its tasks nor the places of the command; rounds are told by `repeats`.
+    """Numbers of orders right before a word for a thing ("6 oxygen bottles") that nothing in the
+    plan has, and that count neither its tasks nor the places of the command.
     """
     titles = Counter(task["title"] for task in case.tasks)
     known = {len(case.positions), *titles.values()}
