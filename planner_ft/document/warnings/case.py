@@ -13,7 +13,7 @@ from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from planner_ft.document.language import Clause, ends_with, language, read_clauses
+from planner_ft.document.language import Clause, language, read_clauses
 from planner_ft.document.track import Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.geographic import without_geographic
@@ -41,19 +41,6 @@ LONGEST = 120  # characters of the command that are quoted
 ROW, CORNERS = 3, 3
 FULL = 360.0
 STEM = 5
-LONGEST_NAME = 24  # characters before the number that ends a name
-NAME = re.compile(r"[^\W\d_]{3,} $")
-NO_NAMES = (
-    "verb",
-    "timing",
-    "boundary",
-    "determiner",
-    "measured",
-    "correction",
-    "replaced",
-    "each",
-)
-"""Kinds of words that end no name."""
 LONGER = re.compile(r"[a-z]{4,}", re.IGNORECASE)
 """Words that say something, and the letters by which one is found again."""
 
@@ -155,12 +142,6 @@ class Case:
         """The clause in which a place of the text is."""
         at = bisect.bisect(self.clauses, place, key=lambda one: one.start) - 1
         return self.clauses[at] if at >= 0 and place < self.clauses[at].end else None
-
-    def is_label(self, place: int) -> bool:
-        """Whether a number at a place of the text ends a name: "room 12", not "wait 12"."""
-        before = self.text[max(0, place - LONGEST_NAME) : place]
-        known = [*(self.words[name] for name in NO_NAMES), *(ask.said for ask in self.spoken.asks)]
-        return NAME.search(before) is not None and not any(ends_with(one, before) for one in known)
 
     def lost(self, start: int, end: int) -> Warning:
         """Words of the text as a value that the plan has not."""

@@ -56,8 +56,7 @@ def unsaid(case: Case) -> Iterator[Warning]:
                 continue
             value, parameter = task["parameters"][name], known[name]
             evidence, shown = said.evidence(value, parameter), _shown(value, parameter)
-            labels = all(case.is_label(one[0][0]) for one in evidence.mentions)
-            bare = parameter.unit == "s" and (labels or not timed) and _has_no_unit(evidence, said)
+            bare = not timed and parameter.unit == "s" and _has_no_unit(evidence, said)
             bare = bare or (name in turns and _is_no_angle(evidence, said))
             about = {"task": task, "parameter": name, "name": name, "value": shown}
             if source["kind"] == "model":

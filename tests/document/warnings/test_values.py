@@ -308,22 +308,3 @@ def test_a_short_word_is_not_near_every_other_one() -> None:
         plan["proposed"] = {"tasks": [dict(one) for one in plan["tasks"]]}
         found = texts(revise(plan, USV), "value-not-said")
         assert len([text for text in found if "its prompt says" in text]) == count
-
-
-@pytest.mark.parametrize(
-    ("said", "count"),
-    [
-        ("room 12 at [20, 30], wait there", 1),
-        ("room 12 at [20, 30], wait 12", 0),
-        ("[20, 30] for 12", 0),
-        ("[20, 30], duration 12", 0),
-        ("room 12 at [20, 30] for 12 s", 0),
-    ],
-)
-def test_the_number_of_a_name_is_no_time(said: str, count: int) -> None:
-    first, second = (task("KeepStation", {"duration": time}, None) for time in (12, 90))
-    plan = document(
-        [to(), first, to(prompt="Go to [30, 40]."), second],
-        command=f"Go to {said}, then to [30, 40] and stay 90 s.",
-    )
-    assert len([one for one in texts(plan, "value-not-said") if "12 s" in one]) == count
