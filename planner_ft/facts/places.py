@@ -190,8 +190,11 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
         if measures or _HALF.match(text, second.start):
             continue
         if between and not _CLOCK.fullmatch(text, start, second.stop):
-            plain = _AT.search(text[:start][-16:]) and _are_plain(text, first, second)
+            at = _AT.search(text[:start][-16:])
+            plain = at and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
+            if BY.fullmatch(text, first.stop, second.start) and not (at or opened):
+                continue  # "60 x 40 around the tower" are sizes.
             parted = text[first.end : second.start] == ";"
             # "120 east 45 north", but not "40, 40 due east".
             way = _DIRECTED.match(text, end) if _BEARING.search(text, start, end) else None
@@ -311,6 +314,7 @@ def with_brackets(text: str) -> str:
 def unpaired_coordinates(text: str) -> bool:
     """Whether a number is said as a coordinate ("x 40 ...") and has no partner."""
     paired = [(place.start, place.end) for place in read_positions(text)]
+    paired += [(row[0].start, row[-1].end) for row in rows_of_sizes(text)]
     return any(
         _AXIS_BEFORE.search(text[: one.start][-24:])
         or _AXIS_BEHIND.match(text[one.end : one.end + 40])
