@@ -56,8 +56,8 @@ def leakage_report(
         for name, records in splits.items()
     }
     progress("near duplicates")
-    near = _near_pairs(written)
-    near_masked = _near_pairs({name: masked for name, (_exact, masked) in same.items()})
+    near = near_pairs(written)
+    near_masked = near_pairs({name: masked for name, (_exact, masked) in same.items()})
     overlaps = []
     for (second, first), pairs in near.items():
         places = itertools.islice(pairs.items(), 5)
@@ -137,7 +137,7 @@ def _most_similar(
         yield from zip(similar.argmax(1).tolist(), similar.max(1).tolist(), strict=True)
 
 
-def _near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], dict[int, int]]:
+def near_pairs(splits: Mapping[str, Sequence[str]]) -> dict[tuple[str, str], dict[int, int]]:
     """By (later split, earlier one): a text's place to that of its most similar near duplicate."""
     from sklearn.feature_extraction.text import CountVectorizer
 

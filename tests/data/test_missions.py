@@ -442,5 +442,5 @@ def test_invented_vehicles_draw_valid_missions():
     assert len(folders) > 20
     for folder in folders:
         vehicle = load_vocabulary(folder / f"{folder.name}.toml")
-        for record in sample_missions(7, 12, vehicle):
+        for record in sample_missions(7, 6, vehicle):
             assert plan_problems("mission", record["expected"], vehicle, strict=True) == []

@@ -127,11 +127,8 @@ def embedded() -> Engine:
 
 @pytest.mark.parametrize("strength", STRENGTHS)
 def test_what_saves_passes_changes_no_answer(embedded: Engine, strength: Strength) -> None:
-    commands = [
-        "Find the rusty mooring buoy, film its shackle for two minutes, then come home.",
-        "Orbit the wreck at [30, -45] from 12 m, then report.",
-    ]
-    queries = [embedded.query("mission", {"prompt": command}) for command in commands]
+    command = "Find the rusty mooring buoy, film its shackle for a minute, then come home."
+    queries = [embedded.query("mission", {"prompt": command})]
     configuration = Configuration(False, strength)
     slow, forced, fast = (
         replace(embedded, fast_forward=fast_forward, drafting=drafting)

@@ -26,7 +26,7 @@ name = "{name}"
 command = "Find Durius and collect data near the J-tubes. Summarize it, then come back."
 published = "mission 2"
 locate = {{ Durius = [{x}, 5] }}
-runs = 2
+runs = {runs}
 {more}
 """
 SURVEYED = 'survey = "learnt"\noutlines = { Durius = "2.5" }'
@@ -39,8 +39,8 @@ def written(folder: Path, *missions: str, head: str = HEAD) -> Path:
     return path
 
 
-def mission(name: str, x: float = 20, more: str = "") -> str:
-    return MISSION.format(name=name, x=x, more=more)
+def mission(name: str, x: float = 20, more: str = "", runs: int = 1) -> str:
+    return MISSION.format(name=name, x=x, more=more, runs=runs)
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def ran(path: Path, out: Path, *, overwrite: bool = False) -> Ran:
 
 @pytest.mark.usefixtures("plain")
 def test_a_command_becomes_runs_in_both_simulators(tmp_path: Path) -> None:
-    path = written(tmp_path, mission("One"), mission("Two", 18, SURVEYED))
+    path = written(tmp_path, mission("One", runs=2), mission("Two", 18, SURVEYED, runs=2))
     done = ran(path, tmp_path / "out")
     both = ("fast", "mujoco")
     assert list(done) == [(name, one) for name in ("One", "Two") for one in both]
@@ -85,7 +85,7 @@ run_suite(read_suite(Path(sys.argv[1])), Path(sys.argv[2]), report)
 @pytest.mark.usefixtures("plain", "forked")
 def test_a_killed_suite_goes_on(tmp_path: Path) -> None:
     head, out = HEAD.replace(', "mujoco"', ""), tmp_path / "out"
-    path = written(tmp_path, mission("One"), mission("Two", 22), head=head)
+    path = written(tmp_path, mission("One"), mission("Two", 22, runs=2), head=head)
     killed = subprocess.run([sys.executable, "-c", KILL, str(path), str(out)], check=False)
     assert killed.returncode == -9 and not (out / "table.md").exists()
     kept = [out / "one" / "fast" / "results.json", out / "two" / "plan.json"]

@@ -107,16 +107,20 @@ def short() -> dict[str, Any]:
     return dict(SHORT)
 
 
+REFERENCE: list[tuple[list[float], bytes]] = []
+"""What `reference` gives, once it has been made: it depends on nothing of a test."""
+
+
 @pytest.fixture
 def reference(ask: Callable[..., Any], quiet: Console, tmp_path: Path) -> tuple[list[float], bytes]:
     """Losses and adapter of an uninterrupted run with dropout."""
     from planner_ft.training.run import train
 
-    train(ask(**SHORT, output=str(tmp_path / "reference")), quiet)
-    return (
-        losses(tmp_path / "reference"),
-        (tmp_path / "reference" / "adapter_model.safetensors").read_bytes(),
-    )
+    if not REFERENCE:
+        train(ask(**SHORT, output=str(tmp_path / "reference")), quiet)
+        weights = tmp_path / "reference" / "adapter_model.safetensors"
+        REFERENCE.append((losses(tmp_path / "reference"), weights.read_bytes()))
+    return REFERENCE[0]
 
 
 @pytest.fixture

@@ -287,9 +287,9 @@ def test_right_plans_can_be_written(embedded: Any, level: Level) -> None:
     factory = make_factory(embedded, level, vocabulary, "grounded")
     curated = [*read_jsonl(CURATED / "train.jsonl"), *read_jsonl(CURATED / "validation.jsonl")]
     drawn = list(
-        itertools.islice(sample_missions(9), 250)
+        itertools.islice(sample_missions(9), 120)
         if level == "mission"
-        else sample_tasks(vocabulary, 9, 200, "train")
+        else sample_tasks(vocabulary, 9, 100, "train")
     )
     for records, share in (
         (curated if level == "mission" else [], 1.0),
