@@ -53,6 +53,8 @@ def mixture_of(arguments: argparse.Namespace) -> Mixture:
         arguments.vehicles,
         arguments.packs,
         arguments.own_share,
+        arguments.written_share,
+        tuple(arguments.commands),
         emphasis=arguments.emphasis,
         subjects=tuple(arguments.subjects),
         prompts=tuple(arguments.prompts),
@@ -170,6 +172,10 @@ OPTIONS: dict[str, tuple[Any, str]] = {
         "groups of samples with a renamed vehicle's vocabulary in their prompt, per sample",
     ),
     "own-share": (0.4, "packs of the surface vehicle under other names among the packs"),
+    "written-share": (
+        0.0,
+        "packs of commands written by hand among the packs (--commands, NAME.written.jsonl)",
+    ),
     "emphasis": (0.0, "missions that are drawn from the templates of --subjects alone"),
     "corpus-seed": (1000, ""),
     "workers": (2, "processes that draw the corpus"),
@@ -192,6 +198,7 @@ def parsed() -> argparse.Namespace:
         "--init-share", type=float, default=0.0, help="share of the weights of --init in the export"
     )
     add("--average-with", type=Path, help="model folder that --init-share is about, not --init")
+    add("--commands", nargs="*", type=Path, default=[], help="files of commands written by hand")
     add("--subjects", nargs="*", default=[], help="subjects of command templates, for --emphasis")
     add("--prompts", nargs="*", default=[], help="subjects of prompt templates, for --emphasis")
     add("--device", default="cuda", help="where grids (--width) are trained on")

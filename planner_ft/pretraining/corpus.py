@@ -23,7 +23,7 @@ from planner_ft.data.varying import with_unfamiliar_words
 from planner_ft.pretraining.packs import Pack, Part, arrays, draw_packs, packs_in
 from planner_ft.prompts import answer_text, render_sample, user_text
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.files import atomic_writer
+from planner_ft.support.files import atomic_writer, read_jsonl
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, without_working
 
@@ -63,6 +63,8 @@ class Mixture:
     vehicle whose target gets a name that the generators do not know, where it has a word that can
     be changed; `drills` come on top: sums alone, the beginnings of task answers, per sample; so do
     `packs`, groups of samples with the vocabulary in their prompt, `own` of them of our vehicle.
+    `written` of the packs are commands written by hand: those of our vehicle in the files
+    `commands`, those of another one in `folder` in its NAME.written.jsonl.
     `emphasis` of our vehicle's missions are drawn from the templates of these `subjects` alone, and
     of its sampled tasks from those of `prompts`.
     """
@@ -74,6 +76,8 @@ class Mixture:
     folder: Path | None = None
     packs: float = 0.0
     own: float = 0.4
+    written: float = 0.0
+    commands: tuple[Path, ...] = ()
     emphasis: float = 0.0
     subjects: tuple[str, ...] = ()
     prompts: tuple[str, ...] = ()
@@ -117,6 +121,15 @@ def vehicles_in(folder: Path) -> Sequence[Vocabulary]:
     if not paths:
         raise PlannerError(f"{folder}: no vehicles; a vehicle is a folder NAME with NAME.toml")
     return [load_vocabulary(path / f"{path.name}.toml") for path in paths]
+
+
+def written_commands(mixture: Mixture, others: Sequence[Vocabulary]) -> list[list[dict[str, Any]]]:
+    """The commands written by hand of our vehicle, and of each of the others. Raises PlannerError
+    for a line that is no record.
+    """
+    named = [(mixture.folder or Path()) / one.name / f"{one.name}.written.jsonl" for one in others]
+    files = [mixture.commands, *((path,) if path.is_file() else () for path in named)]
+    return [[record for path in paths for record in read_jsonl(path)] for paths in files]
 
 
 def tokenizer_texts(vocabulary: Vocabulary, seed: int, count: int, share: float) -> Iterator[str]:
@@ -203,7 +216,9 @@ def encode_shard(
     if number := round(count * mixture.packs):
         others = vehicles_in(mixture.folder) if mixture.folder else ()
         weights = [mixture.own, *[(1 - mixture.own) / max(1, len(others))] * len(others)]
-        endless = draw_packs([vocabulary, *others], weights, tokenizer, seed, longest)
+        by_hand = written_commands(mixture, others) if mixture.written else ()
+        vehicles = [vocabulary, *others]
+        endless = draw_packs(vehicles, weights, tokenizer, seed, longest, by_hand, mixture.written)
         packs = list(itertools.islice(endless, number))
     lengths = np.array([len(item) for item in ids], dtype=np.int32)
     with atomic_writer(path, "wb") as stream_:

@@ -190,7 +190,8 @@ def make_shard(job: Job) -> dict[str, int]:
 def record(job: Job, counts: dict[str, int], commit: str | None) -> None:
     """Write beside a shard what it holds."""
     mixture = job[-1]
-    shares = {**dataclasses.asdict(mixture), "folder": str(mixture.folder)}
+    files = {"folder": str(mixture.folder), "commands": [*map(str, mixture.commands)]}
+    shares = {**dataclasses.asdict(mixture), **files}
     write_json(job[0].with_suffix(".json"), {**counts, "mixture": shares, "commit": commit})
 
 

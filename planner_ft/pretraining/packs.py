@@ -61,12 +61,22 @@ def draw_packs(
     tokenizer: PreTrainedTokenizerBase,
     seed: int,
     longest: int,
+    written: Sequence[Sequence[dict[str, Any]]] = (),
+    share: float = 0.0,
 ) -> Iterator[Pack]:
-    """Endless packs of mission samples, each of a vehicle under other names."""
+    """Endless packs of mission samples, each of a vehicle under other names. This `share` of them
+    are commands written by hand, of the vehicles that have some: `written`, in their order.
+    """
     rng = Random(f"{seed} packs")
     samples = [sample_missions(seed + 31, None, vehicle) for vehicle in vehicles]
-    for index in iter(lambda: rng.choices(range(len(vehicles)), weights)[0], None):
-        drawn, vehicle = itertools.islice(samples[index], rng.randint(*SAMPLES)), vehicles[index]
+    known = [weight * bool(records) for weight, records in zip(weights, written, strict=False)]
+    while True:
+        by_hand = any(known) and rng.random() < share
+        index = rng.choices(range(len(vehicles)), known if by_hand else weights)[0]
+        vehicle, count = vehicles[index], rng.randint(*SAMPLES)
+        drawn = itertools.islice(samples[index], count)
+        if by_hand:
+            drawn = iter(rng.sample(written[index], min(count, len(written[index]))))
         records = [
             (rng.random() < UNFAMILIAR and with_unfamiliar_words(one, vehicle, rng, own=True))
             or one
