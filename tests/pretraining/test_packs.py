@@ -13,12 +13,13 @@ import torch
 
 from planner_ft.data.missions import sample_missions
 from planner_ft.document.own_vehicle import new_vehicle
-from planner_ft.pretraining.corpus import Mixture, encode_shard, load_shard
+from planner_ft.pretraining.corpus import Mixture, encode_shard, load_shard, written_commands
 from planner_ft.pretraining.grids import grid_of, parts_of
 from planner_ft.pretraining.loop import PretrainSettings, completion_loss, new_model
 from planner_ft.pretraining.model import CAUSAL, register_attention
-from planner_ft.pretraining.packs import IGNORE, packed, view
+from planner_ft.pretraining.packs import IGNORE, draw_packs, packed, view
 from planner_ft.prompts import render_sample
+from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import plan_problems
 
@@ -115,6 +116,32 @@ def test_a_shard_holds_its_packs(tokenizer: Any, tmp_path: Path) -> None:
     assert grid_of([], packs, 8192, seed=0).tokens == sum(
         len(ids) for ids, _prompt in itertools.chain(*packs)
     )
+
+
+def test_packs_are_drawn_from_commands_written_by_hand(tokenizer: Any) -> None:
+    folder = Path("data/vehicles")
+    robot = load_vocabulary(folder / "pool_cleaner" / "pool_cleaner.toml")
+    own = (Path("data/mission/train.jsonl"),)
+    written = written_commands(Mixture(folder=folder, commands=own), [DRONE, robot])
+    assert [bool(records) for records in written] == [True, False, True]
+    for share, by_hand in ((0.0, 0), (1.0, 5)):
+        packs = draw_packs([USV, DRONE, robot], [1, 1, 1], tokenizer, 4, 1024, written, share)
+        known = {record["prompt"] for records in written for record in records}
+        texts = [
+            [tokenizer.decode(ids[:prompt]) for ids, prompt in parts]
+            for _vocabulary, *parts in itertools.islice(packs, 5)
+        ]
+        found = [any(one in text for text in pack for one in known) for pack in texts]
+        assert sum(found) == by_hand
+
+
+@pytest.mark.parametrize("path", sorted(Path("data/vehicles").glob("*/*.written.jsonl")), ids=str)
+def test_commands_written_by_hand_have_valid_plans(path: Path) -> None:
+    vehicle = load_vocabulary(path.with_name(path.name.replace(".written.jsonl", ".toml")))
+    records = read_jsonl(path)
+    assert len({record["id"] for record in records}) == len(records) == 25
+    for record in records:
+        assert plan_problems("mission", record["expected"], vehicle, strict=True) == []
 
 
 def test_processes_share_the_packs_of_a_batch(pack: Any, tokenizer: Any) -> None:
