@@ -123,7 +123,7 @@ class Input:
         )
 
     @functools.cached_property
-    def _plain_ground(self) -> Ground | None:
+    def plain_ground(self) -> Ground | None:
         """What places are derived from in the plain reading of the text: positions that share no
         number, lengths that are no coordinates, directions that are said. "0 and 100,200" is no
         100200.
@@ -155,7 +155,7 @@ class Input:
         or two stated ways off them, the middles of areas between two of them or at a corner, and
         those with one coordinate told anew ("40, 20, no, minus 30").
         """
-        known = None if self.is_task else self._plain_ground
+        known = None if self.is_task else self.plain_ground
         if known is None:
             return ()
         off = tuple(itertools.islice(known.away(known.places), MOST_WORKED))

@@ -193,7 +193,8 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
             at = _AT.search(text[:start][-16:])
             plain = at and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
-            if BY.fullmatch(text, first.stop, second.start) and not (at or opened):
+            named = at or opened or _AXIS_BEFORE.search(text[:start][-24:])
+            if BY.fullmatch(text, first.stop, second.start) and not named:
                 continue  # "60 x 40 around the tower" are sizes.
             parted = text[first.end : second.start] == ";"
             # "120 east 45 north", but not "40, 40 due east".
@@ -312,17 +313,23 @@ def with_brackets(text: str) -> str:
 
 @functools.lru_cache(maxsize=4096)
 def unpaired_coordinates(text: str) -> bool:
-    """Whether a number is said as a coordinate ("x 40 ...") and has no partner."""
+    """Whether a number is said as a coordinate ("x 40 ...") and has no partner. A lone length in a
+    direction is a way: "400 feet due east of home".
+    """
     paired = [(place.start, place.end) for place in read_positions(text)]
     paired += [(row[0].start, row[-1].end) for row in rows_of_sizes(text)]
-    return any(
-        _AXIS_BEFORE.search(text[: one.start][-24:])
-        or _AXIS_BEHIND.match(text[one.end : one.end + 40])
+    found = [
+        one
         for one in read_numbers(text)
         if one.unit in ("m", None)
+        and (
+            _AXIS_BEFORE.search(text[: one.start][-24:])
+            or _AXIS_BEHIND.match(text[one.end : one.end + 40])
+        )
         and not any(at <= one.start < end for at, end in paired)
         and not (one.said in range(10) and _TIMES.search(text, max(0, one.start - 2), one.start))
-    )
+    ]
+    return len(found) > 1 or any(one.unit is None for one in found)
 
 
 @functools.lru_cache(maxsize=4096)

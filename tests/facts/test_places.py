@@ -119,7 +119,7 @@ def test_local_positions_and_angles_are_not_geographic(text: str) -> None:
 
 
 def test_positions_know_their_words_and_whether_they_are_certain() -> None:
-    text = "Go to [-40, 12], then 120 east 45 south of home; 80 by 50 there."
+    text = "Go to [-40, 12], then 120 east 45 south of home; at 80 by 50."
     found = {(place.x, place.y): place for place in read(text).positions}
     assert [
         (text[place.start : place.end], place.certain)
@@ -162,8 +162,9 @@ POSITIONS = """
     at 40,12 m => 40,12 <40,12 m>
     near 40 12 => 40,12 <40 12>!
     40, 12 => 40,12 <40, 12>
-    40 by 12 => 40,12 <40 by 12>
-    40 m by 12 m => 40,12 <40 m by 12 m>
+    at 40 by 12 => 40,12 <40 by 12>
+    to 40 m by 12 m => 40,12 <40 m by 12 m>
+    60 x 40 around the tower at 90,20 => 90,20 <90,20>!
     40 and 12 => 40,12 <40 and 12>
     40 comma 12 => 40,12 <40 comma 12>
     40/12 => 40,12 <40/12>
@@ -327,7 +328,10 @@ def test_turns(text: str, found: str) -> None:
         ("x 40, thence on by 5 m for 8 s", (40, 5)),
         ("x is 40", (40,)),
         ("the grid x2", ()),
-        ("at 40 m east of home", (40,)),
+        ("at 40 m east of home", ()),
+        ("400 feet due east of home", ()),
+        ("40 m east, then go 20 m north", (40, 20)),
+        ("60 x 40 around it", ()),
         ("40 north of home", (40,)),
         ("North 5, then hold 8 s", (5,)),
         ("the northing is -5", (-5,)),

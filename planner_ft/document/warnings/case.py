@@ -312,7 +312,7 @@ def area_corners(values: Entry) -> list[tuple[float, float]]:
 
 def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:
     """The lengths by which places of a plan lie a stated way off stated ones."""
-    ground = command.ground
+    ground = command.plain_ground
     for (x, y), base in itertools.product(set(map(tuple, places)), ground.places if ground else ()):
         away = x - base[0], y - base[1]
         # The way from home to a stated place is that place.
