@@ -190,10 +190,10 @@ def positions_of(text: str, numbers: tuple[Number, ...]) -> tuple[Position, ...]
         if measures or _HALF.match(text, second.start):
             continue
         if between and not _CLOCK.fullmatch(text, start, second.stop):
-            at = _AT.search(text[:start][-16:])
-            plain = at and _are_plain(text, first, second)
+            led_in = _AT.search(text[:start][-16:])
+            plain = led_in and _are_plain(text, first, second)
             opened = _OPENED.search(text[:start][-16:]) or _AXES.search(text[start:end])
-            named = at or opened or _AXIS_BEFORE.search(text[:start][-24:])
+            named = led_in or opened or _AXIS_BEFORE.search(text[:start][-24:])
             if BY.fullmatch(text, first.stop, second.start) and not named:
                 continue  # "60 x 40 around the tower" are sizes.
             parted = text[first.end : second.start] == ";"

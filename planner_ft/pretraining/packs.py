@@ -74,9 +74,9 @@ def draw_packs(
         by_hand = any(known) and rng.random() < share
         index = rng.choices(range(len(vehicles)), known if by_hand else weights)[0]
         vehicle, count = vehicles[index], rng.randint(*SAMPLES)
-        drawn = itertools.islice(samples[index], count)
+        drawn = [*itertools.islice(samples[index], 0 if by_hand else count)]
         if by_hand:
-            drawn = iter(rng.sample(written[index], min(count, len(written[index]))))
+            drawn = rng.sample(written[index], min(count, len(written[index])))
         records = [
             (rng.random() < UNFAMILIAR and with_unfamiliar_words(one, vehicle, rng, own=True))
             or one
