@@ -20,7 +20,7 @@ MEASURED = [
     Path("eval/challenge/things.jsonl"),
     Path("eval/challenge/turns.jsonl"),
     *sorted(Path("eval/challenge").glob("mission*.jsonl")),
-    *sorted(Path("eval/field").glob("*.jsonl")),
+    *sorted(Path("eval/field").rglob("*.jsonl")),
 ]
 
 

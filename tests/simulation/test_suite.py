@@ -154,7 +154,7 @@ def test_a_mission_of_ones_own_has_no_published_figures(tmp_path: Path) -> None:
         ([mission("One", more="starts = [[1]]")], HEAD, r"a place is no \[x, y\]"),
         ([mission("One").replace("mission 2", "mission 9")], HEAD, "is no published mission"),
         ([mission("One")], HEAD.replace("fast", "sea"), "--simulator sea: must be one of fast"),
-        ([mission("One").replace("runs = 2", "runs = 0")], HEAD, "--runs 0"),
+        ([mission("One", runs=0)], HEAD, "--runs 0"),
     ],
 )
 def test_a_broken_suite_is_refused(

@@ -156,6 +156,13 @@ def test_a_limit_of_several_things_holds_for_each(said: str, of_one: bool) -> No
         assert sum("holds for one alone" in text for text in told(plan, "limit-lost")) == count
 
 
+def test_a_length_is_no_way_off_a_place_that_nobody_said() -> None:
+    plan = document(
+        [go((150.3, -37.6), (0, 0))], command="Go to 160,-40, one reading from 40 m off."
+    )
+    assert any("40 m" in text for text in told(plan, "value-lost"))
+
+
 def off(metres: float, *points: tuple[float, float]) -> list[str]:
     """What is told of a limit around [50, 0] where no way round it is looked for."""
     plan = document([go(*points)], constraints=[WRECK.format(metres)])
