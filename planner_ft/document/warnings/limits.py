@@ -258,15 +258,3 @@ def beside(case: Case) -> Iterator[Warning]:
         metres = circle[1] if circle else face.distance if face else least
         if 0 < metres < least:
             yield warning("structure-close", "beside", task, metres=metres)
-
-
-def of_several(case: Case) -> Iterator[Warning]:
-    """Limits that hold for one thing, where their words speak of several: "20 m off both"."""
-    places = [limit for limit in case.limits if {"object", "position"} & limit["values"].keys()]
-    for limit in places:
-        words, metres = limit.get("words") or "", limit["values"].get("distance")
-        alike = [one for one in places if one["values"].get("distance") == metres]
-        if len(alike) == 1 and (found := case.words["several"].search(words)):
-            about, said = words.casefold(), words[found.start() : found.end()]
-            one = {"words": said, "limit": limit["text"].rstrip(".")}
-            yield warning("limit-lost", "several", about=about, **one)

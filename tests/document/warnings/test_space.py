@@ -147,15 +147,6 @@ def test_a_line_that_the_plan_goes_across_is_told(said: str, count: int) -> None
     assert len(crossed) == count
 
 
-@pytest.mark.parametrize(("said", "of_one"), [("off both", True), ("off T5 and T6", False)])
-def test_a_limit_of_several_things_holds_for_each(said: str, of_one: bool) -> None:
-    command = f"Go past T5 at [20, 60] and T6 at [90, 60], keep 9 m {said}."
-    limits = [f"The vehicle stays at least 9 m from {one}." for one in ("T5 at [20, 60]", "T6")]
-    for kept, count in ((limits[:1], of_one), (limits, False)):
-        plan = document([go((20, 0), (90, 0))], command=command, constraints=kept)
-        assert sum("holds for one alone" in text for text in told(plan, "limit-lost")) == count
-
-
 def test_a_length_is_no_way_off_a_place_that_nobody_said() -> None:
     plan = document(
         [go((150.3, -37.6), (0, 0))], command="Go to 160,-40, one reading from 40 m off."
