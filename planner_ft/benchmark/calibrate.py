@@ -14,12 +14,11 @@ from planner_ft.benchmark.scoring import SampleScore, score_sample
 from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.confidence.calibration import KINDS, Calibration, Curve, log_features
 from planner_ft.confidence.parts import Part, from_json, parts
-from planner_ft.planning.agents import silent
 from planner_ft.planning.settings import PlanSettings, choose_agents
 from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
-from planner_ft.support.terminal import Report
+from planner_ft.support.terminal import Report, silent
 from planner_ft.training.samples import Split, tests_within
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level

@@ -40,10 +40,6 @@ GO_ON = "give --resume to go on, --overwrite to start anew, or another --out"
 Line = dict[str, Any]
 
 
-def silent(_label: str, _done: int, _total: int) -> None:
-    """No progress."""
-
-
 def check_folder(
     folder: Path,
     names: Sequence[str],

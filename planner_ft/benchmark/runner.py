@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from planner_ft.benchmark import folder
-from planner_ft.benchmark.folder import Line, RecordLog, silent
+from planner_ft.benchmark.folder import Line, RecordLog
 from planner_ft.benchmark.plan import Job, Plan, make_plan
 from planner_ft.benchmark.results import Results, assemble
 from planner_ft.benchmark.samples import Sample
@@ -24,7 +24,7 @@ from planner_ft.candidates.adapters import adapter_sha256, find_adapter
 from planner_ft.support.files import sha256_text
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.ranks import ALONE, Ranks
-from planner_ft.support.terminal import Report
+from planner_ft.support.terminal import Report, silent
 from planner_ft.vocabulary.plans import parse_output
 
 Source = EndpointSource | EngineSource

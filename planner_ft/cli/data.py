@@ -103,7 +103,8 @@ def vehicle(o: Options) -> None:
         for path in new_vehicle(o.name, o.out):
             show(str(path))
     elif o.action == "check":
-        parts = check_vehicle(o.name, check_simulation)
+        with interruptible(lines=False) as progress:
+            parts = check_vehicle(o.name, check_simulation, progress)
         for part in parts:
             show(str(part))
         raise typer.Exit(any(part.state == "wrong" for part in parts))

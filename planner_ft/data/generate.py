@@ -18,6 +18,7 @@ from planner_ft.data.validation import canonical_record
 from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.terminal import Report, silent
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
 from planner_ft.vocabulary.plans import LEVELS, Level, plan_problems
@@ -30,8 +31,6 @@ ABOUT = "labelling.md"
 """Beside a curated set: how it was labelled, for its card."""
 
 Record = dict[str, Any]
-Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how much is done and of how much."""
 Messages = Callable[[Level, Record, Vocabulary], list[dict[str, str]]]
 
 
@@ -75,9 +74,7 @@ class GenerationSettings:
 
 
 def generate(
-    settings: GenerationSettings,
-    progress: Progress = lambda _label, _done, _total: None,
-    messages: Messages | None = None,
+    settings: GenerationSettings, progress: Report = silent, messages: Messages | None = None
 ) -> list[Generated]:
     """Generate, check and write the data of each level; `messages` turns a record into the chat
     form that `chat` asks for.
@@ -105,7 +102,7 @@ def _make(
     name: str,
     settings: GenerationSettings,
     vocabulary: Vocabulary,
-    progress: Progress,
+    progress: Report,
     messages: Messages | None,
 ) -> Generated:
     """One set: "mission", "task" or the synthetic missions."""
@@ -180,7 +177,7 @@ def _chat(id_: str, chat: list[dict[str, str]]) -> str:
 
 
 def _sampled(
-    name: str, settings: GenerationSettings, vocabulary: Vocabulary, progress: Progress
+    name: str, settings: GenerationSettings, vocabulary: Vocabulary, progress: Report
 ) -> dict[str, list[Record]]:
     splits: dict[str, list[Record]] = {}
     train: set[str] = set()

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from planner_ft.data.curated import SPLITS, curated_folder
 from planner_ft.data.labels import unchecked_tags
 from planner_ft.data.templates.checking import checked_templates
-from planner_ft.data.templates.records import template_files, templates
+from planner_ft.data.templates.records import Kind, template_files, templates
 from planner_ft.data.validation import validate_file
 from planner_ft.document.language import language
 from planner_ft.document.vehicle import load_vehicle
@@ -18,6 +18,7 @@ from planner_ft.facts.units import named
 from planner_ft.support.alone import alone, staging
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl, read_text, write_text, writing
+from planner_ft.support.terminal import Report, silent
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import (
     BUNDLED,
@@ -110,7 +111,9 @@ def new_vehicle(name: str, out: Path | None = None) -> list[Path]:
     return written
 
 
-def check_vehicle(source: str, simulation: Callable[[Vocabulary], Any] | None = None) -> list[Part]:
+def check_vehicle(
+    source: str, simulation: Callable[[Vocabulary], Any] | None = None, report: Report = silent
+) -> list[Part]:
     """Every file of a vehicle, with what is wrong or lacking; `simulation` reads that file. Raises
     PlannerError for a definition that is not there.
     """
@@ -127,7 +130,12 @@ def check_vehicle(source: str, simulation: Callable[[Vocabulary], Any] | None = 
     return [
         Part(path.name, "every command", "ready", size + doubts),
         _part("mission/", "gen-data, train and bench --level mission", _mission_set, vocabulary),
-        _part(f"{Path(vocabulary.source).stem}.commands.jsonl", SYNTHETIC, _templates, vocabulary),
+        _part(
+            f"{Path(vocabulary.source).stem}.commands.jsonl",
+            SYNTHETIC,
+            lambda known: _templates(known, report),
+            vocabulary,
+        ),
         *_beside(vocabulary, path, wrong, simulation),
     ]
 
@@ -276,10 +284,15 @@ def _undefined(raw: dict[str, Any], vocabulary: Vocabulary) -> list[str]:
     ]
 
 
-def _templates(vocabulary: Vocabulary) -> tuple[State, str]:
+def _templates(vocabulary: Vocabulary, report: Report) -> tuple[State, str]:
     """The command and prompt templates, and the tasks that none asks for."""
-    problems = [str(error) for _template, _drawn, error in checked_templates(vocabulary) if error]
     commands = [one for group in templates(vocabulary, "commands") for one in group]
+    kinds: tuple[Kind, ...] = ("commands", "clauses", "prompts")
+    of_all = [group for kind in kinds for group in templates(vocabulary, kind)]
+    problems, total = list[str](), sum(map(len, of_all))
+    for done, (_template, _drawn, error) in enumerate(checked_templates(vocabulary), 1):
+        report("templates", done, total)
+        problems += [str(error)] if error else []
     if problems:
         return "wrong", "\n".join(problems)
     if not template_files(vocabulary, "commands"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from planner_ft.confidence.parts import known
 from planner_ft.planning.result import AgentUse, Answer
 from planner_ft.planning.settings import Agent
 from planner_ft.support.resources import peak_memory
+from planner_ft.support.terminal import Report
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.plans import Level, parse_output, plan_problems
 
@@ -23,12 +24,6 @@ if TYPE_CHECKING:
 
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""
-Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how many are done, and how many there are (0: not known)."""
-
-
-def silent(_label: str, _done: int, _total: int) -> None:
-    """No progress."""
 
 
 class Agents:
@@ -38,7 +33,7 @@ class Agents:
     """
 
     def __init__(
-        self, agents: Mapping[Level, Agent], vocabulary: Vocabulary, device: str, progress: Progress
+        self, agents: Mapping[Level, Agent], vocabulary: Vocabulary, device: str, progress: Report
     ) -> None:
         """Raises PlannerError for a device that there is not."""
         self.agents, self.vocabulary, self._progress = agents, vocabulary, progress

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from planner_ft.planning.agents import Agents, Progress, silent
+from planner_ft.planning.agents import Agents
 from planner_ft.planning.essentials import asked, missing_defaults, with_defaults, with_essentials
 from planner_ft.planning.frame import agents_frame
 from planner_ft.planning.limits import with_limits, with_return, without_limits
@@ -28,6 +28,7 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder, writing
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.terminal import Report, silent
 from planner_ft.vocabulary import load_vocabulary
 
 
@@ -60,7 +61,7 @@ class Planner:
     In a `with` block the memory is given back at its end.
     """
 
-    def __init__(self, settings: PlanSettings, progress: Progress = silent) -> None:
+    def __init__(self, settings: PlanSettings, progress: Report = silent) -> None:
         """Checks the settings and loads nothing yet. Raises PlannerError."""
         self.settings = settings
         self.vocabulary = load_vocabulary(settings.vocabulary)
@@ -70,7 +71,7 @@ class Planner:
 
     @classmethod
     def load(
-        cls, candidate: str = DEFAULT_CANDIDATE, *, progress: Progress = silent, **settings: Any
+        cls, candidate: str = DEFAULT_CANDIDATE, *, progress: Report = silent, **settings: Any
     ) -> Planner:
         """A planner of PlanSettings with the Mission Agent's base loaded. Raises PlannerError."""
         planner = cls(PlanSettings(candidate, **settings), progress)

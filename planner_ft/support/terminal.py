@@ -14,6 +14,10 @@ Report = Callable[[str, int, int], None]
 """Progress: called with a label, how many are done and how many there are in all of that part."""
 
 
+def silent(_label: str, _done: int, _total: int) -> None:
+    """No progress."""
+
+
 def under(name: str, report: Report) -> Report:
     """The progress of a part of that name."""
     return lambda label, done, total: report(f"{name}: {label}", done, total)
