@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from planner_ft.data.borrowing import like_tasks
 from planner_ft.data.curated import SPLITS, curated_folder
 from planner_ft.data.labels import unchecked_tags
 from planner_ft.data.templates.checking import checked_templates
@@ -38,7 +39,7 @@ State = Literal["ready", "missing", "wrong"]
 SYNTHETIC = "gen-data --synthetic, train --augment"
 FILES: tuple[tuple[str, str, str, Callable[[Vocabulary], Any] | None], ...] = (
     ("phrases", "gen-data --level task", "prompts use names and descriptions", None),
-    ("missions", SYNTHETIC, "there are no synthetic missions", lambda known: _missions(known)),
+    ("missions", SYNTHETIC, "no synthetic or borrowed missions", lambda known: _missions(known)),
     ("vehicle", "plan", "plan stops: give --vehicle FILE", lambda known: load_vehicle(None, known)),
     ("essentials", "plan", "nothing is added to a task or asked", lambda known: _unlisted(known)),
     ("ontology", "plan, review", "commands are checked less closely", language),
@@ -233,6 +234,7 @@ def _beside(
 def _missions(vocabulary: Vocabulary) -> None:
     """Raises PlannerError for demands and slots that name nothing."""
     raw = vocabulary.beside(MISSIONS)
+    like_tasks(vocabulary)
     problems = [
         f"[demand] names {name!r}, which is no skill"
         for name in raw.get("demand", {})

@@ -115,10 +115,8 @@ def check_data(request: TrainRequest, prepared: Prepared, finding: Finding) -> N
         added.append(f"{count} of the training samples from {request.corrections}")
     if train:
         problems += shortened(train.contradictions())
-    if train and settings.vary:
-        own = len(train.records)
-        train = train.varied(settings.seed, settings.vary)
-        added.append(f"{len(train.records) - own} of the training samples with other values")
+    if train:
+        train = train.multiplied(settings.seed, settings.vary, settings.borrow, added)
     if train and settings.augment:
         train = train.augmented(settings.seed, settings.augment)
         added.append(f"{settings.augment} of the training samples synthetic")

@@ -108,9 +108,33 @@ class Split:
         named = [{**record, "id": f"augment-{record['id']}"} for record in records]
         return self._extended(named, "".join(map(compact_json, records)))
 
-    def varied(self, seed: int, count: int) -> Split:
-        """With `count` copies of each record with other values where it has some; some go on with
-        another record, are of several places, or lack words. Raises PlannerError at task level.
+    def multiplied(self, seed: int, vary: int, borrow: int, added: list[str]) -> Split:
+        """With `vary` samples more for each record: `borrow` of them commands to the surface
+        vehicle, as far as there are any, the others copies. What is added is noted in `added`.
+        """
+        lent = self.lent(seed, borrow * len(self.records)) if borrow else []
+        copies = max(0, vary * len(self.records) - len(lent))
+        split = self.varied(seed, vary, copies) if copies else self
+        if count := len(split.records) - len(self.records):
+            added.append(f"{count} of the training samples with other values")
+        if lent:
+            added.append(f"{len(lent)} of the training samples borrowed")
+        return split._extended(lent) if lent else split
+
+    def lent(self, seed: int, count: int) -> list[Record]:
+        """At most `count` commands to the surface vehicle, told to this one. Raises PlannerError at
+        task level.
+        """
+        from planner_ft.data.borrowing import borrowed
+
+        if self.level == "task":
+            raise PlannerError("--borrow is for the mission level; --augment makes samples of both")
+        return borrowed(self.vocabulary, count, seed)
+
+    def varied(self, seed: int, count: int, most: int | None = None) -> Split:
+        """With `count` copies of each record with other values where it has some, `most` in all;
+        some go on with another record, are of several places, or lack words. Raises PlannerError
+        at task level.
         """
         from planner_ft.data.recombining import at_several, joined
         from planner_ft.data.varying import varied, with_heading, with_lost_words
@@ -133,7 +157,7 @@ class Split:
                 new = with_heading(new, rng)
             if new is not record:
                 made.append({**new, "id": f"varied-{number}-{record['id']}"})
-        return self._extended(made)
+        return self._extended(made[:most])
 
 
 def read_split(

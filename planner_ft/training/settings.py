@@ -48,6 +48,7 @@ class TrainSettings:
     max_samples: int | None = None
     augment: int = 0
     vary: int = 0
+    borrow: int = 0
     vocabulary_in_prompt: bool = False
     max_steps: int | None = None
     select: Literal["loss", "f1", "last"] = "loss"

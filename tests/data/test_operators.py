@@ -16,6 +16,8 @@ MEASURED = [
     Path("data/mission/validation.jsonl"),
     Path("data/mission/test.jsonl"),
     Path("data/mission/challenge.jsonl"),
+    Path("data/inspection_drone/mission/challenge.jsonl"),
+    *sorted(Path("eval/vehicles").glob("*/mission/test.jsonl")),
     Path("eval/challenge/operators.jsonl"),
     Path("eval/challenge/things.jsonl"),
     Path("eval/challenge/turns.jsonl"),

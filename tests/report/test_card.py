@@ -109,9 +109,15 @@ def test_a_card_names_its_training_data_and_limits() -> None:
 def test_a_card_names_the_command_and_what_was_made_of_the_data() -> None:
     adapter = Path(__file__).parents[2] / "adapters" / "embedded" / "mission"
     manifest = json.loads((adapter / "manifest.json").read_text())
-    manifest["configuration"] |= {"augment": 20, "vary": 2, "max_samples": 50, "blend": 0.5}
+    manifest["configuration"] |= {
+        "augment": 20,
+        "vary": 2,
+        "borrow": 1,
+        "max_samples": 50,
+        "blend": 0.5,
+    }
     card = model_card(manifest)
     assert f"Made by `{manifest['command']}`." in card
-    assert "synthetic samples | 50, 2, 20 |" in card
+    assert "synthetic samples | 50, 2, 1, 20 |" in card
     assert "| the last, 0.5 |" in card
     assert "Made by" not in model_card(manifest | {"command": "launcher.py -f kernel.json"})

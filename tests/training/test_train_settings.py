@@ -140,6 +140,7 @@ def test_a_bundled_recipe_runs_by_its_first_line_and_says_every_setting(name):
             "max_steps",
             "augment",
             "vary",
+            "borrow",
             "select",
             "blend",
             "validation_answers",
