@@ -200,7 +200,7 @@ def is_measured(unit: str | None) -> bool:
 
 
 def _names(source: Task, own: Task) -> dict[str, str]:
-    """The parameters of `own` by those of `source`: the same name, else the only one of its kind."""
+    """The parameters of `own` by those of `source`: of the same name, else alone of their kind."""
     names = {one.name: one.name for one in source.parameters if one.name in own.by_name}
     for one in source.parameters:
         kinds = [two.name for two in own.parameters if (two.type, two.unit) == (one.type, one.unit)]
