@@ -15,6 +15,7 @@ from planner_ft.prompts import Rendered, render_sample, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import compact_json, iterate_jsonl, sha256_file, sha256_text
 from planner_ft.vocabulary import Vocabulary
+from planner_ft.vocabulary.definition import MISSIONS
 from planner_ft.vocabulary.plans import Level, list_key, plan_problems
 
 if TYPE_CHECKING:
@@ -117,8 +118,11 @@ class Split:
         split = self.varied(seed, vary, copies) if copies else self
         if count := len(split.records) - len(self.records):
             added.append(f"{count} of the training samples with other values")
-        if lent:
-            added.append(f"{len(lent)} of the training samples borrowed")
+        if borrow:
+            ways_out = (
+                "" if lent else f": see `like` and `prompt` in {self.vocabulary.name}{MISSIONS}"
+            )
+            added.append(f"{len(lent) or 'none'} of the training samples borrowed{ways_out}")
         return split._extended(lent) if lent else split
 
     def lent(self, seed: int, count: int) -> list[Record]:

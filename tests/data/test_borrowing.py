@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -114,5 +115,8 @@ def test_a_split_takes_them_behind_its_own() -> None:
     assert len(lent) == own
     assert both.sha256 != copies.sha256 != split.sha256
     assert added[-1] == f"{own} of the training samples borrowed"
+    bare = load_vocabulary("eval/vehicles/plant_rover/plant_rover.toml")
+    replace(split, vocabulary=bare).multiplied(0, 0, 3, added)
+    assert added.pop().startswith("none of the training samples borrowed: see `like`")
     few = split.multiplied(0, 1, 30, added)
     assert not [one for one in few.records if one["id"].startswith("varied-")]
