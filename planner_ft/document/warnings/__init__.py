@@ -97,7 +97,7 @@ CHECKS: tuple[Check, ...] = (
         repeats.each,
     ),
     *(said.devices, directions.laid_otherwise, directions.turned_otherwise),
-    directions.turned_by_bearing,
+    *(directions.turned_by_bearing, directions.turned_unsaid),
     *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
     *(
         values.unread,

@@ -10,7 +10,7 @@ from planner_ft.document.clearance import KEEPS_CLEAR
 from planner_ft.document.language import ends_with
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import Leg, Point, bearing, place_of
-from planner_ft.document.warnings.case import FULL, Case, Warning, lost, skills_of, warning
+from planner_ft.document.warnings.case import FULL, Case, Warning, lost, quoted, skills_of, warning
 from planner_ft.document.warnings.route import own_waypoints
 from planner_ft.document.warnings.said import CORRECTED, NO
 from planner_ft.facts import Number, is_number, near
@@ -168,6 +168,19 @@ def turned_otherwise(case: Case) -> Iterator[Warning]:
         had = gone or any(sense in _senses(task, case) for task in case.tasks)
         if not had and case.wants(start):
             yield case.lost(start, end)
+
+
+def turned_unsaid(case: Case) -> Iterator[Warning]:
+    """A sense of rotation that the prompt of a round has, and the command in other words at most:
+    "contrary to the clock" may have been taken for its opposite. "Keep it to port" says a sense.
+    """
+    for task in case.tasks if not case.words["beam"].search(case.text) else ():
+        prompt = task["task_prompt"]
+        found = [sense for sense in SENSES if case.words[sense].search(prompt)]
+        is_round = case.vocabulary.task[task["title"]].pattern in ROUND
+        if is_round and found and not any(case.words[one].search(case.text) for one in SENSES):
+            about: Any = {"task": task, "about": found[-1]}
+            yield warning("value-not-said", "word", **about, words=quoted(found[-1]))
 
 
 def _senses(task: Entry, case: Case) -> set[str]:

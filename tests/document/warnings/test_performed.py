@@ -93,6 +93,22 @@ def test_a_sense_of_rotation_that_no_task_has_is_told(
     assert (not [one for one in lost if "clockwise" in one or "ccw" in one]) is kept
 
 
+@pytest.mark.parametrize(
+    ("words", "prompt", "told"),
+    [
+        ("contrary to the clock", "Circle it clockwise.", True),
+        ("contrary to the clock", "Circle it anticlockwise.", True),
+        ("contrary to the clock", "Circle it.", False),
+        ("clockwise", "Circle it clockwise.", False),
+        ("keeping it to port", "Circle it anticlockwise.", False),
+    ],
+)
+def test_a_sense_of_rotation_in_other_words_is_told(words: str, prompt: str, told: bool) -> None:
+    made = document([arc(None, prompt)], command=f"Go round the mast at 60,40 once, {words}.")
+    texts = [one["text"] for one in made["warnings"] if one["kind"] == "value-not-said"]
+    assert any("its prompt says" in text and "clockwise" in text for text in texts) is told
+
+
 def test_a_grid_that_is_run_twice_unasked_is_named() -> None:
     there_and_back = [*lanes([90, 100, 110], 40, 60), *lanes([110, 100, 90], 60, 40)]
     (text,) = found("BathymetryGridSurvey", GRID, there_and_back)
