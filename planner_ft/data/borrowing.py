@@ -1,4 +1,4 @@
-"""Commands that people wrote to the surface vehicle, told to another one.
+"""Commands that people wrote to the surface vehicle, translated for another vehicle.
 
 How people correct themselves, put things in order, limit and dictate hardly depends on the vehicle.
 A command is borrowed where each of its tasks is one that the other vehicle has: the way somewhere,
@@ -19,14 +19,13 @@ from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_jsonl
 from planner_ft.vocabulary import Task, Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import MISSIONS
+from planner_ft.vocabulary.essentials import load_essentials
 from planner_ft.vocabulary.plans import is_number, plan_problems
 
 OPERATORS = ("train.jsonl", "things.jsonl", "more.jsonl")
 """Commands to the surface vehicle (data/operators)."""
 BUNDLED = Path(__file__).parent / "curated" / "operators"
 """Where a wheel carries them."""
-DEFAULTS = {"arc": 360}
-"""What a task of the surface vehicle means without saying so."""
 _FIXED = {
     "found": "once it has been found",
     "whereabouts": "around .+?",
@@ -46,15 +45,15 @@ def borrowed(vocabulary: Vocabulary, count: int, seed: int) -> list[Record]:
     vehicle (for that vehicle all of them). Raises PlannerError for a task that is `like` none, and
     where the commands are missing.
     """
-    own = _Borrower(load_vocabulary(), vocabulary, like_tasks(vocabulary))
+    translator = _Translator(load_vocabulary(), vocabulary, like_tasks(vocabulary))
     records = [record for path in operators_files() for record in read_jsonl(path)]
     Random(f"borrow {seed}").shuffle(records)
     made: list[Record] = []
     for record in records:
         if len(made) == count:
             break
-        if told := own.told(record):
-            made.append(told)
+        if translated := translator.record(record):
+            made.append(translated)
     return made
 
 
@@ -91,20 +90,21 @@ def operators_files() -> list[Path]:
     raise PlannerError(f"--borrow: the commands are neither in {checkout} nor in the package")
 
 
-class _Borrower:
-    """Tells commands of one vehicle to another one."""
+class _Translator:
+    """Makes records of one vehicle records of another one."""
 
     def __init__(self, source: Vocabulary, own: Vocabulary, alike: Mapping[str, Task]) -> None:
         self.source, self.own, self.alike = source, own, alike
         self._said, self._texts = source.beside(MISSIONS), own.beside(MISSIONS)
+        self._essentials = load_essentials(source)
         self._places = {
             str(list(source.home)): list(own.home),
             str(list(source.unresolved)): list(own.unresolved),
         }
 
-    def told(self, record: Record) -> Record | None:
-        """The record for the other vehicle; None where it has no such task, or needs to hear more
-        of the command than the plan has.
+    def record(self, record: Record) -> Record | None:
+        """The record for the other vehicle; None where that has no such task, or the command may
+        state a value that only its tasks have.
         """
         plan = record["expected"]
         if list(self.own.home) != list(self.source.home) and _ORIGIN.search(record["prompt"]):
@@ -125,17 +125,19 @@ class _Borrower:
         if own is None:
             return None
         names = _names(self.source.task[task["title"]], own)
+        known = self._essentials.get(task["title"])
+        defaults = known.defaults if known else {}
         values = {
             name: value
             for name, value in task["parameters"].items()
-            if name in names or DEFAULTS.get(name) != value
+            if name in names or defaults.get(name) != value
         }
         if not values.keys() <= names.keys():
             return None
         given = {names[name]: self._places.get(str(value), value) for name, value in values.items()}
         prompt = self._prompt(task, own, names)
-        told = {"title": own.title, "parameters": given, "task_prompt": prompt}
-        return told if prompt else None
+        made = {"title": own.title, "parameters": given, "task_prompt": prompt}
+        return made if prompt else None
 
     def _prompt(self, task: Record, own: Task, names: Mapping[str, str]) -> str | None:
         """The task prompt in the other vehicle's words; what stands behind its first sentence
@@ -157,11 +159,10 @@ class _Borrower:
             said = {names.get(name, name): value for name, value in slots.items()}
             if place := said.get("place") or said.get("thing"):
                 said |= {"place": place, "thing": place}
-            told = say(sources, said)
-            if told is None:
+            text = say(sources, said) or ""
+            if not text:
                 return None
-            text = self._placed(told)
-        return " ".join(filter(None, (text, parts[2])))
+        return self._placed(" ".join(filter(None, (text, parts[2]))))
 
     def _foreign(self, sentences: str) -> bool:
         """Whether they ask for data in words that the other vehicle has not."""
@@ -183,7 +184,7 @@ class _Borrower:
             parameter.unit
             for task in tasks
             for parameter in self.own.task[task["title"]].parameters
-            if parameter.name not in task["parameters"] and is_measured(parameter.unit)
+            if parameter.name not in task["parameters"] and named(parameter.unit)
         }
         held = {
             value for task in tasks for value in task["parameters"].values() if is_number(value)
@@ -192,11 +193,6 @@ class _Borrower:
             number.unit in free and round(number.value, 2) not in held
             for number in read_numbers(record["prompt"])
         )
-
-
-def is_measured(unit: str | None) -> bool:
-    """Whether numbers are said with the unit."""
-    return unit is not None and named(unit) is not None
 
 
 def _names(source: Task, own: Task) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Commands to the surface vehicle, told to another one."""
+"""Commands to the surface vehicle, translated for another one."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from planner_ft.vocabulary.plans import plan_problems
 
 DRONE = load_vocabulary("inspection_drone")
 RECORDS = borrowed(DRONE, 9999, 0)
-TOLD = {record["prompt"]: record["expected"] for record in RECORDS}
+PLANS = {record["prompt"]: record["expected"] for record in RECORDS}
 
 
 def test_plans_are_the_other_vehicles_own() -> None:
     assert len(RECORDS) > 1000
     for record in RECORDS:
         assert not plan_problems("mission", record["expected"], DRONE, strict=True)
-    titles = Counter(task["title"] for plan in TOLD.values() for task in plan["tasks"])
+    titles = Counter(task["title"] for plan in PLANS.values() for task in plan["tasks"])
     assert titles.keys() == {task.title for task in DRONE.tasks} - {"RoofScan"}
 
 
 def test_a_command_keeps_its_words_and_values() -> None:
     wanted = {record["prompt"]: record for path in operators_files() for record in read_jsonl(path)}
     alike = like_tasks(DRONE)
-    for prompt, plan in TOLD.items():
+    for prompt, plan in PLANS.items():
         source = wanted[prompt]["expected"]
         assert [alike[task["title"]].title for task in source["tasks"]] == [
             task["title"] for task in plan["tasks"]
@@ -43,11 +43,11 @@ def test_a_command_keeps_its_words_and_values() -> None:
 
 
 def test_prompts_are_in_the_words_of_the_other_vehicle() -> None:
-    plan = TOLD["Inspect the feed barge, she lies at 70,25. Standoff 15 m."]
+    plan = PLANS["Inspect the feed barge, she lies at 70,25. Standoff 15 m."]
     assert [task["task_prompt"] for task in plan["tasks"]] == [
         "Fly an inspection square around the feed barge at [70, 25] at 15 m."
     ]
-    prompts = [task["task_prompt"] for plan in TOLD.values() for task in plan["tasks"]]
+    prompts = [task["task_prompt"] for plan in PLANS.values() for task in plan["tasks"]]
     first_words = {prompt.split()[0] for prompt in prompts}
     assert first_words == {"Fly", "Hover", "Orbit", "Search", "Check", "Compile"}
     assert not any("geotagged" in prompt or "depth" in prompt for prompt in prompts)
