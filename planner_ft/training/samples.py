@@ -126,8 +126,8 @@ class Split:
         return split._extended(lent) if lent else split
 
     def lent(self, seed: int, count: int) -> list[Record]:
-        """At most `count` commands to the surface vehicle, translated for this one. Raises PlannerError at
-        task level.
+        """At most `count` commands to the surface vehicle, translated for this one. Raises
+        PlannerError at task level.
         """
         from planner_ft.data.borrowing import borrowed
 
