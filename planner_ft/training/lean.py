@@ -2,20 +2,24 @@
 
 At a few hundred tokens a step, most of a small model's time goes to operations that are not its
 multiplications: PEFT takes a dozen per layer and projection, transformers two dozen per norm and
-rotation, and the CPU's flash attention prepares kernels per shape. Here projections of the same
-input are one multiplication, and each step has a backward pass of its own. Numbers differ from
-theirs by rounding alone: the multiplications are bfloat16 (or float32), residual sums float32.
+rotation, dropout draws a number per value, and the CPU's flash attention prepares kernels per
+shape. Here projections of the same input are one multiplication with their adapters, dropout draws
+the places that it drops, and all layers have one backward pass, written out. Numbers differ from
+theirs by rounding alone: the multiplications are bfloat16, residual sums float32.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import linear
+from torch.nn.functional import linear, silu
 
 LONGEST = 2048
 """Positions in a row at most: weights of attention are kept for the backward pass."""
+GROUPS = ("q_proj", "k_proj", "v_proj"), ("o_proj",), ("gate_proj", "up_proj"), ("down_proj",)
+"""The projections of a layer that have the same input."""
 
 
 def lean_states(
@@ -25,23 +29,18 @@ def lean_states(
     bfloat16 would give them; None where the model is not one that this module computes. `positions`
     and `shared` as in `Batch`: samples that share a row do not see each other.
     """
-    base = model.get_base_model()
     if input_ids.shape[1] > LONGEST or not is_lean(model, input_ids.device):
         return None
-    body, (rows, width) = base.get_decoder(), input_ids.shape
+    body, (rows, width) = model.get_base_model().get_decoder(), input_ids.shape
+    layers = _layers(model)
     where = torch.arange(width).expand(rows, width) if positions is None else positions
     states = body.embed_tokens(input_ids).flatten(0, 1).float()
-    cosine, sine = (part[:, :, None] for part in body.rotary_emb(states, where))
+    tables = _tables(body, states, where)
     hidden = _hidden(where, shared if positions is not None else 0)
-    for layer in body.layers:
-        attention, feed = layer.self_attn, layer.mlp
-        mixed = _project(_norm(states, layer.input_layernorm), attention, "q_proj k_proj v_proj")
-        mixed = mixed.view(rows, width, 3, -1, attention.head_dim)
-        found = _applied(_Attention, mixed, cosine, sine, hidden, attention.scaling)
-        states = states + _project(found, attention, "o_proj")
-        opened = _project(_norm(states, layer.post_attention_layernorm), feed, "gate_proj up_proj")
-        states = states + _project(_applied(_Gated, opened), feed, "down_proj")
-    return _norm(states, body.norm).view(rows, width, -1)
+    weights = [pair for layer in layers for joined in layer.joined for pair in joined.adapters()]
+    known = layers, _Norm(body.norm), tables, hidden
+    found: Tensor = _Decoder.apply(states, known, *weights)  # type: ignore[no-untyped-call]
+    return found.view(rows, width, -1)
 
 
 def is_lean(model: Any, device: torch.device) -> bool:
@@ -64,35 +63,46 @@ def _is_lean(base: Any) -> bool:
         or getattr(base, "is_gradient_checkpointing", False)
     ):
         return False
-    names = ["q_proj", "k_proj", "v_proj", "o_proj"], ["gate_proj", "up_proj", "down_proj"]
     return all(
         set(getattr(module, "lora_A", ())) == {"default"}
         and type(module.get_base_layer()) is nn.Linear
         and module.get_base_layer().bias is None
         and not any(module.use_dora.values())
         for layer in base.get_decoder().layers
-        for part, own in zip((layer.self_attn, layer.mlp), names, strict=True)
-        for module in (getattr(part, name) for name in own)
+        for group in _groups(layer)
+        for module in group
     )
 
 
-def _project(inputs: Tensor, part: nn.Module, names: str) -> Tensor:
-    """The projections `names` of a layer's part side by side, adapters included."""
-    modules = [getattr(part, name) for name in names.split()]
-    weight = _joined(part, names, modules)
-    first = modules[0]
-    drop = first.lora_dropout["default"]
-    share = drop.p if isinstance(drop, nn.Dropout) and first.training else 0.0
-    pairs = [one[key].weight for m in modules for one in (m.lora_A, m.lora_B) for key in one]
-    return _applied(_Projection, inputs, weight, first.scaling["default"], share, *pairs)
+def _groups(layer: Any) -> Iterator[list[Any]]:
+    parts = (layer.self_attn, layer.self_attn, layer.mlp, layer.mlp)
+    for part, names in zip(parts, GROUPS, strict=True):
+        yield [getattr(part, name) for name in names]
 
 
-def _joined(part: Any, names: str, modules: Sequence[Any]) -> Tensor:
-    """The frozen matrices of the projections as one, which is made once."""
-    kept = part.__dict__.setdefault("_planner_ft_joined", {})
-    if names not in kept:
-        kept[names] = torch.cat([module.get_base_layer().weight.detach() for module in modules])
-    return kept[names]  # type: ignore[no-any-return]
+def _layers(model: Any) -> list["_Layer"]:
+    """The layers, which are put together once."""
+    known = model.__dict__.get("_planner_ft_layers")
+    if known is None:
+        layers = model.get_base_model().get_decoder().layers
+        known = model.__dict__["_planner_ft_layers"] = [_Layer(layer) for layer in layers]
+    return known  # type: ignore[no-any-return]
+
+
+def _tables(body: Any, states: Tensor, positions: Tensor) -> tuple[Tensor, Tensor]:
+    """Cosines and signed sines (2, rows, heads, width, size) that turn queries and keys by their
+    positions; those of queries are scaled as attention asks for.
+    """
+    attention = body.layers[0].self_attn
+    heads, (rows, width) = body.config.num_attention_heads, positions.shape
+    cosine, sine = body.rotary_emb(states, positions)
+    first, second = sine.chunk(2, -1)
+    tables = []
+    for table in (cosine, torch.cat([-first, second], -1)):
+        whole = table[None, :, None].expand(2, rows, heads, width, -1).contiguous()
+        whole[0] *= attention.scaling
+        tables.append(whole)
+    return tables[0], tables[1]
 
 
 def _hidden(positions: Tensor, shared: int) -> Tensor:
@@ -104,145 +114,209 @@ def _hidden(positions: Tensor, shared: int) -> Tensor:
     return torch.zeros(closed.shape, dtype=torch.bfloat16).masked_fill_(closed, -torch.inf)[:, None]
 
 
-def _norm(states: Tensor, norm: Any) -> Tensor:
-    return _applied(_Norm, states, norm.weight.detach(), norm.variance_epsilon)
-
-
-def _applied(function: Any, *values: Any) -> Tensor:
-    """`function.apply`, which torch gives no type."""
-    found: Tensor = function.apply(*values)
-    return found
-
-
-class _Norm(torch.autograd.Function):
-    """RMS norm of float32 states (n, hidden), given in bfloat16."""
+class _Decoder(torch.autograd.Function):
+    """Float32 states (n, hidden) through all layers and the last norm, given in bfloat16."""
 
     @staticmethod
-    def forward(ctx: Any, states: Tensor, weight: Tensor, epsilon: float) -> Tensor:
-        scale = states.square().mean(1, keepdim=True).add_(epsilon).rsqrt_()
-        weight = weight.float()
-        ctx.save_for_backward(states, scale, weight)
-        return (states * scale).mul_(weight).to(torch.bfloat16)
-
-    @staticmethod
-    def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor, None, None]:
-        states, scale, weight = ctx.saved_tensors
-        inner = gradients[0] * weight
-        along = (inner * states).mean(1, keepdim=True).mul_(scale.square())
-        return inner.sub_(states * along).mul_(scale), None, None
-
-
-class _Projection(torch.autograd.Function):
-    """Inputs (n, in) through a frozen matrix (out, in) and LoRA pairs A (rank, in), B (part of out,
-    rank) for its parts; each adapter drops a share of its inputs, as PEFT's does.
-    """
-
-    @staticmethod
-    def forward(
-        ctx: Any, inputs: Tensor, weight: Tensor, scaling: float, share: float, *pairs: Tensor
-    ) -> Tensor:
-        down = [pair.to(inputs.dtype) for pair in pairs[::2]]
-        up = torch.block_diag(*pairs[1::2]).to(inputs.dtype)  # type: ignore[no-untyped-call]
-        kept = [torch.empty_like(inputs).bernoulli_(1 - share) for _ in down] if share else []
-        for mask in kept:
-            mask.div_(1 - share)
-        if kept:
-            both = zip(down, kept, strict=True)
-            inner = torch.cat([linear(inputs * mask, one) for one, mask in both], 1)
-        else:
-            inner = linear(inputs, torch.cat(down))
-        ctx.save_for_backward(inputs, weight, up, inner, *down, *kept)
-        ctx.scaling, ctx.count = scaling, len(down)
-        ctx.shapes = [tuple(pair.shape) for pair in pairs[1::2]]
-        return torch.addmm(linear(inputs, weight), inner, up.t(), alpha=scaling)
+    def forward(ctx: Any, states: Tensor, known: Any, *weights: Tensor) -> Tensor:
+        layers, norm, tables, hidden = known
+        states, ctx.known, ctx.kept = states.clone(), known, []
+        for layer in layers:
+            ctx.kept.append(layer.forward(states, tables, hidden))
+        found = torch.empty(states.shape, dtype=torch.bfloat16)
+        ctx.last = norm.forward(states, found)
+        return found
 
     @staticmethod
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
-        gradient, (inputs, weight, up, inner, *rest) = gradients[0], ctx.saved_tensors
-        down, kept = rest[: ctx.count], rest[ctx.count :]
-        of_inner = torch.mm(gradient, up).mul_(ctx.scaling)
-        of_inputs = torch.mm(gradient, weight)
-        of_up = torch.mm(gradient.t(), inner).mul_(ctx.scaling).float()
-        found: list[Tensor] = []
+        layers, norm, tables, _hidden = ctx.known
+        gradient, found = torch.zeros(gradients[0].shape), []
+        norm.backward(gradients[0], ctx.last, gradient)
+        for layer, kept in zip(reversed(layers), reversed(ctx.kept), strict=True):
+            found.append(layer.backward(gradient, kept, tables))
+        return None, None, *(one for layer in reversed(found) for one in layer)
+
+
+class _Layer:
+    """A layer of the decoder; both passes change the residual sum, or its gradient, in place."""
+
+    def __init__(self, layer: Any) -> None:
+        self.joined = [_Joined(group) for group in _groups(layer)]
+        self.norms = [_Norm(layer.input_layernorm), _Norm(layer.post_attention_layernorm)]
+
+    def forward(self, states: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor) -> list[Any]:
+        into, out, opening, closing = self.joined
+        inputs = into.room(states)
+        kept: list[Any] = [self.norms[0].forward(states, inputs)]
+        mixed, own = into.forward(inputs)
+        inputs = out.room(states)
+        kept += [own, _attention(mixed, tables, hidden, inputs[:, : out.entries])]
+        found, own = out.forward(inputs)
+        states += found
+        inputs = opening.room(states)
+        kept += [own, self.norms[1].forward(states, inputs)]
+        opened, own = opening.forward(inputs)
+        inputs = closing.room(states)
+        kept += [own, _gated(opened, inputs[:, : closing.entries])]
+        found, own = closing.forward(inputs)
+        states += found
+        return [*kept, own]
+
+    def backward(
+        self, gradient: Tensor, kept: list[Any], tables: tuple[Tensor, Tensor]
+    ) -> list[Tensor]:
+        """The gradients of the adapters."""
+        into, out, opening, closing = self.joined
+        first, mixed, attended, found, second, opened, gated, last = kept
+        inner, of_closing = closing.backward(gradient.to(torch.bfloat16), last)
+        inner, of_opening = opening.backward(_gated_backward(inner, gated), opened)
+        self.norms[1].backward(inner, second, gradient)
+        inner, of_out = out.backward(gradient.to(torch.bfloat16), found)
+        inner, of_into = into.backward(_attention_backward(inner, attended, tables), mixed)
+        self.norms[0].backward(inner, first, gradient)
+        return [*of_into, *of_out, *of_opening, *of_closing]
+
+
+class _Joined:
+    """Projections of the same input as one: the frozen matrices side by side (in, out), and below
+    them B of their adapters, so that one multiplication takes inputs and what A makes of them.
+    """
+
+    def __init__(self, modules: Sequence[Any]) -> None:
+        frozen = torch.cat([module.get_base_layer().weight.detach() for module in modules]).t()
+        self.modules, (self.entries, outputs) = modules, frozen.shape
+        ranks = [module.r["default"] for module in modules]
+        self.both = frozen.new_zeros(self.entries + sum(ranks), outputs)
+        self.both[: self.entries] = frozen
+        self.spans = list(self._spans(ranks))
+        self.scale = self.share = 0.0
+
+    def _spans(self, ranks: list[int]) -> Iterator[tuple[slice, slice]]:
+        """Where each adapter's A ends, and its outputs."""
         row = column = 0
-        if not kept:
-            of_down = torch.mm(of_inner.t(), inputs).float()
-            of_inputs.addmm_(of_inner, torch.cat(down))
-        for place, (outputs, rank) in enumerate(ctx.shapes):
-            own = slice(column, column + rank)
-            if kept:
-                part = of_inner[:, own]
-                of_one = torch.mm(part.t(), inputs * kept[place]).float()
-                of_inputs.addcmul_(torch.mm(part, down[place]), kept[place])
-            else:
-                of_one = of_down[own]
-            found += [of_one, of_up[row : row + outputs, own]]
-            row, column = row + outputs, column + rank
-        return of_inputs, None, None, None, *found
+        for module, rank in zip(self.modules, ranks, strict=True):
+            width = module.get_base_layer().out_features
+            yield slice(row, row + rank), slice(column, column + width)
+            row, column = row + rank, column + width
+
+    def adapters(self) -> list[Tensor]:
+        """A (rank, in) and B (out, rank) of each projection."""
+        pairs = ((m.lora_A["default"].weight, m.lora_B["default"].weight) for m in self.modules)
+        return [weight for pair in pairs for weight in pair]
+
+    def room(self, states: Tensor) -> Tensor:
+        """Where inputs go, and behind them what A makes of them."""
+        return self.both.new_empty(len(states), len(self.both))
+
+    def forward(self, inputs: Tensor) -> tuple[Tensor, Any]:
+        """Outputs (n, out) of inputs in `room`. A share of the inputs of the adapters is dropped;
+        those of the same input lose the same.
+        """
+        weights, first = self.adapters(), self.modules[0]
+        drop = first.lora_dropout["default"]
+        share = drop.p if isinstance(drop, nn.Dropout) and first.training else 0.0
+        scale = first.scaling["default"] / (1 - share)
+        down = torch.cat([one.detach() for one in weights[::2]]).to(inputs.dtype)
+        for up, (rows, columns) in zip(weights[1::2], self.spans, strict=True):
+            self.both[self.entries :][rows, columns].copy_(up.detach().t() * scale)
+        own, dropped = inputs[:, : self.entries].contiguous(), None
+        if share:
+            # So many draws with replacement leave each value out with the probability `share`.
+            count = round(-math.log1p(-share) * own.numel())
+            dropped = torch.randint(own.numel(), (count,))
+            own.view(-1).index_fill_(0, dropped, 0)
+        inputs[:, self.entries :] = linear(own, down)
+        return torch.mm(inputs, self.both), (inputs, own, down, dropped, scale)
+
+    def backward(self, gradient: Tensor, kept: Any) -> tuple[Tensor, list[Tensor]]:
+        """The gradients of the inputs (n, in) and of the adapters."""
+        inputs, own, down, dropped, scale = kept
+        whole = linear(gradient, self.both)
+        inner = whole[:, self.entries :].contiguous()
+        of_down = torch.mm(inner.t(), own).float()
+        of_up = torch.mm(inputs[:, self.entries :].t(), gradient).float().mul_(scale)
+        found = torch.mm(inner, down)
+        if dropped is not None:
+            found.view(-1).index_fill_(0, dropped, 0)
+        found += whole[:, : self.entries]
+        parts = ((of_down[rows], of_up[rows, columns].t()) for rows, columns in self.spans)
+        return found, [one for pair in parts for one in pair]
 
 
-class _Attention(torch.autograd.Function):
-    """Queries, keys and values (rows, width, 3, heads, size) to what every position finds,
-    (rows * width, heads * size). Queries and keys are turned by their rotary positions first.
-    """
+class _Norm:
+    """RMS norm of float32 states (n, hidden)."""
 
-    @staticmethod
-    def forward(
-        ctx: Any, mixed: Tensor, cosine: Tensor, sine: Tensor, hidden: Tensor, scale: float
-    ) -> Tensor:
-        rows, width, _three, heads, size = mixed.shape
-        turned = _turned(mixed[:, :, :2].float(), cosine[:, :, None], sine[:, :, None])
-        turned[:, :, 0] *= scale
-        parts = turned.to(mixed.dtype).permute(2, 0, 3, 1, 4).reshape(2, -1, width, size)
-        values = mixed[:, :, 2].transpose(1, 2).reshape(-1, width, size)
-        scores = torch.bmm(parts[0], parts[1].transpose(1, 2)).view(rows, heads, width, width)
-        weights = torch.softmax(scores.add_(hidden), -1).view(-1, width, width)
-        ctx.save_for_backward(parts, values, weights, cosine, sine)
-        ctx.scale, ctx.shape = scale, mixed.shape
-        found = torch.bmm(weights, values).view(rows, heads, width, size)
-        return found.transpose(1, 2).reshape(rows * width, heads * size)
+    def __init__(self, norm: Any) -> None:
+        self.weight, self.epsilon = norm.weight.detach().float(), norm.variance_epsilon
 
-    @staticmethod
-    def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
-        parts, values, weights, cosine, sine = ctx.saved_tensors
-        rows, width, _three, heads, size = ctx.shape
-        gradient = gradients[0].view(rows, width, heads, size).transpose(1, 2)
-        gradient = gradient.reshape(-1, width, size)
-        of_weights = torch.bmm(gradient, values.transpose(1, 2))
-        of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
-        both = torch.stack(
-            [torch.bmm(of_scores, parts[1]), torch.bmm(of_scores.transpose(1, 2), parts[0])]
-        )
-        both = both.view(2, rows, heads, width, size).permute(1, 3, 0, 2, 4).float()
-        both[:, :, 0] *= ctx.scale
-        # The other way round: the transposed rotation.
-        of_mixed = torch.empty(ctx.shape, dtype=gradient.dtype)
-        of_mixed[:, :, :2] = _turned(both, cosine[:, :, None], -sine[:, :, None])
-        of_values = torch.bmm(weights.transpose(1, 2), gradient)
-        of_mixed[:, :, 2] = of_values.view(rows, heads, width, size).transpose(1, 2)
-        return of_mixed, None, None, None, None
+    def forward(self, states: Tensor, into: Tensor) -> tuple[Tensor, Tensor]:
+        """Writes to the first columns of `into`."""
+        size = states.shape[1]
+        scale = torch.linalg.vector_norm(states, dim=1, keepdim=True)
+        scale = scale.square_().div_(size).add_(self.epsilon).rsqrt_()
+        even = states * scale
+        into[:, :size] = even * self.weight
+        return even, scale
+
+    def backward(self, inner: Tensor, kept: tuple[Tensor, Tensor], gradient: Tensor) -> None:
+        """Adds the gradient of the states to `gradient`."""
+        even, scale = kept
+        wide = inner.float().mul_(self.weight)
+        along = (wide * even).mean(1, keepdim=True)
+        gradient.addcmul_(wide.addcmul_(even, along, value=-1), scale)
 
 
-def _turned(values: Tensor, cosine: Tensor, sine: Tensor) -> Tensor:
+def _attention(
+    mixed: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor, into: Tensor
+) -> tuple[Tensor, ...]:
+    """What every position finds, (rows * width, heads * size), from queries, keys and values."""
+    _two, rows, heads, width, size = tables[0].shape
+    parts = mixed.view(rows, width, 3, heads, size).permute(2, 0, 3, 1, 4)
+    wide = parts[:2].to(torch.float32, memory_format=torch.contiguous_format)
+    queries, keys = _turned(wide, *tables).to(mixed.dtype).view(2, -1, width, size)
+    values = parts[2].reshape(-1, width, size)
+    scores = torch.bmm(queries, keys.transpose(1, 2)).view(rows, heads, width, width)
+    weights = torch.softmax(scores.add_(hidden), -1).view(-1, width, width)
+    found = torch.bmm(weights, values).view(rows, heads, width, size).transpose(1, 2)
+    into.view(rows, width, heads, size).copy_(found)
+    return queries, keys, values, weights
+
+
+def _attention_backward(
+    gradient: Tensor, kept: tuple[Tensor, ...], tables: tuple[Tensor, Tensor]
+) -> Tensor:
+    cosine, sine = tables
+    _two, rows, heads, width, size = cosine.shape
+    queries, keys, values, weights = kept
+    inner = gradient.view(rows, width, heads, size).transpose(1, 2).reshape(-1, width, size)
+    of_weights = torch.bmm(inner, values.transpose(1, 2))
+    of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
+    both = torch.stack([torch.bmm(of_scores, keys), torch.bmm(of_scores.transpose(1, 2), queries)])
+    found = gradient.new_empty(rows, width, 3, heads, size)
+    parts = found.permute(2, 0, 3, 1, 4)
+    # The other way round: the transposed rotation.
+    parts[:2] = _turned(both.float().view(cosine.shape), cosine, sine, way=-1)
+    parts[2] = torch.bmm(weights.transpose(1, 2), inner).view(rows, heads, width, size)
+    return found.view(rows * width, -1)
+
+
+def _turned(values: Tensor, cosine: Tensor, sine: Tensor, way: int = 1) -> Tensor:
     first, second = values.chunk(2, -1)
-    return (values * cosine).add_(torch.cat([-second, first], -1).mul_(sine))
+    return (values * cosine).addcmul_(torch.cat([second, first], -1), sine, value=way)
 
 
-class _Gated(torch.autograd.Function):
+def _gated(opened: Tensor, into: Tensor) -> tuple[Tensor, Tensor]:
     """silu(gate) * up of (n, 2 * width)."""
+    gate, up = opened.chunk(2, 1)
+    open_ = silu(gate)
+    torch.mul(open_, up, out=into)
+    return opened, open_
 
-    @staticmethod
-    def forward(ctx: Any, opened: Tensor) -> Tensor:
-        ctx.save_for_backward(opened)
-        gate, up = opened.chunk(2, 1)
-        return nn.functional.silu(gate).mul_(up)
 
-    @staticmethod
-    def backward(ctx: Any, *gradients: Tensor) -> Tensor:
-        (opened,) = ctx.saved_tensors
-        gate, up = opened.chunk(2, 1)
-        of_opened = torch.empty_like(opened)
-        of_gate, of_up = of_opened.chunk(2, 1)
-        of_gate.copy_(torch.ops.aten.silu_backward(gradients[0] * up, gate))
-        torch.mul(gradients[0], nn.functional.silu(gate), out=of_up)
-        return of_opened
+def _gated_backward(gradient: Tensor, kept: tuple[Tensor, Tensor]) -> Tensor:
+    opened, open_ = kept
+    found = torch.empty_like(opened)
+    (gate, up), (of_gate, of_up) = opened.chunk(2, 1), found.chunk(2, 1)
+    torch.mul(gradient, open_, out=of_up)
+    of_gate.copy_(torch.ops.aten.silu_backward(gradient.mul_(up), gate))
+    return found
