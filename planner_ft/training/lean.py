@@ -37,7 +37,7 @@ def lean_states(
     states = body.embed_tokens(input_ids).flatten(0, 1).float()
     tables = _tables(body, states, where)
     hidden = _hidden(where, shared if positions is not None else 0)
-    weights = [pair for layer in layers for joined in layer.joined for pair in joined.adapters()]
+    weights = [pair for layer in layers for joined in layer.joined for pair in joined.adapters]
     known = layers, _Norm(body.norm), tables, hidden
     found: Tensor = _Decoder.apply(states, known, *weights)  # type: ignore[no-untyped-call]
     return found.view(rows, width, -1)
@@ -123,15 +123,14 @@ class _Decoder(torch.autograd.Function):
         states, ctx.known, ctx.kept = states.clone(), known, []
         for layer in layers:
             ctx.kept.append(layer.forward(states, tables, hidden))
-        found = torch.empty(states.shape, dtype=torch.bfloat16)
-        ctx.last = norm.forward(states, found)
-        return found
+        found, ctx.last = norm.forward(states)
+        return found.to(torch.bfloat16)
 
     @staticmethod
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
         layers, norm, tables, _hidden = ctx.known
-        gradient, found = torch.zeros(gradients[0].shape), []
-        norm.backward(gradients[0], ctx.last, gradient)
+        gradient, found = torch.zeros(gradients[0].shape), list[list[Tensor]]()
+        norm.backward(gradients[0].float(), ctx.last, gradient)
         for layer, kept in zip(reversed(layers), reversed(ctx.kept), strict=True):
             found.append(layer.backward(gradient, kept, tables))
         return None, None, *(one for layer in reversed(found) for one in layer)
@@ -146,96 +145,83 @@ class _Layer:
 
     def forward(self, states: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor) -> list[Any]:
         into, out, opening, closing = self.joined
-        inputs = into.room(states)
-        kept: list[Any] = [self.norms[0].forward(states, inputs)]
-        mixed, own = into.forward(inputs)
-        inputs = out.room(states)
-        kept += [own, _attention(mixed, tables, hidden, inputs[:, : out.entries])]
-        found, own = out.forward(inputs)
+        inputs, first = self.norms[0].forward(states)
+        mixed, entered = into.forward(inputs)
+        inputs, attended = _attention(mixed, tables, hidden)
+        found, left = out.forward(inputs)
+        inputs, second = self.norms[1].forward(states.add_(found))
+        opened, widened = opening.forward(inputs)
+        inputs, gated = _gated(opened)
+        found, closed = closing.forward(inputs)
         states += found
-        inputs = opening.room(states)
-        kept += [own, self.norms[1].forward(states, inputs)]
-        opened, own = opening.forward(inputs)
-        inputs = closing.room(states)
-        kept += [own, _gated(opened, inputs[:, : closing.entries])]
-        found, own = closing.forward(inputs)
-        states += found
-        return [*kept, own]
+        return [first, entered, attended, left, second, widened, gated, closed]
 
     def backward(
         self, gradient: Tensor, kept: list[Any], tables: tuple[Tensor, Tensor]
     ) -> list[Tensor]:
         """The gradients of the adapters."""
         into, out, opening, closing = self.joined
-        first, mixed, attended, found, second, opened, gated, last = kept
-        inner, of_closing = closing.backward(gradient.to(torch.bfloat16), last)
-        inner, of_opening = opening.backward(_gated_backward(inner, gated), opened)
+        first, entered, attended, left, second, widened, gated, closed = kept
+        inner, of_closing = closing.backward(gradient, closed)
+        inner, of_opening = opening.backward(_gated_backward(inner, gated), widened)
         self.norms[1].backward(inner, second, gradient)
-        inner, of_out = out.backward(gradient.to(torch.bfloat16), found)
-        inner, of_into = into.backward(_attention_backward(inner, attended, tables), mixed)
+        inner, of_out = out.backward(gradient, left)
+        inner, of_into = into.backward(_attention_backward(inner, attended, tables), entered)
         self.norms[0].backward(inner, first, gradient)
         return [*of_into, *of_out, *of_opening, *of_closing]
 
 
 class _Joined:
     """Projections of the same input as one: the frozen matrices side by side (in, out), and below
-    them B of their adapters, so that one multiplication takes inputs and what A makes of them.
+    them B of their adapters, so that one multiplication takes inputs and what A makes of them. What
+    has a side as short as a rank is multiplied in float32: that begins sooner than bfloat16.
     """
 
     def __init__(self, modules: Sequence[Any]) -> None:
         frozen = torch.cat([module.get_base_layer().weight.detach() for module in modules]).t()
-        self.modules, (self.entries, outputs) = modules, frozen.shape
-        ranks = [module.r["default"] for module in modules]
-        self.both = frozen.new_zeros(self.entries + sum(ranks), outputs)
+        self.first, (self.entries, outputs) = modules[0], frozen.shape
+        pairs = [(m.lora_A["default"].weight, m.lora_B["default"].weight) for m in modules]
+        self.adapters = [weight for pair in pairs for weight in pair]
+        self.both = frozen.new_zeros(self.entries + sum(len(down) for down, _up in pairs), outputs)
         self.both[: self.entries] = frozen
-        self.spans = list(self._spans(ranks))
-        self.scale = self.share = 0.0
-
-    def _spans(self, ranks: list[int]) -> Iterator[tuple[slice, slice]]:
-        """Where each adapter's A ends, and its outputs."""
+        self.spans: list[tuple[slice, slice]] = []
         row = column = 0
-        for module, rank in zip(self.modules, ranks, strict=True):
-            width = module.get_base_layer().out_features
-            yield slice(row, row + rank), slice(column, column + width)
-            row, column = row + rank, column + width
-
-    def adapters(self) -> list[Tensor]:
-        """A (rank, in) and B (out, rank) of each projection."""
-        pairs = ((m.lora_A["default"].weight, m.lora_B["default"].weight) for m in self.modules)
-        return [weight for pair in pairs for weight in pair]
-
-    def room(self, states: Tensor) -> Tensor:
-        """Where inputs go, and behind them what A makes of them."""
-        return self.both.new_empty(len(states), len(self.both))
+        for down, up in pairs:
+            self.spans.append((slice(row, row + len(down)), slice(column, column + len(up))))
+            row, column = row + len(down), column + len(up)
+        own = self.both[self.entries :]
+        self.ups = [(own[at], up.detach().t()) for at, (_down, up) in zip(self.spans, pairs)]
 
     def forward(self, inputs: Tensor) -> tuple[Tensor, Any]:
-        """Outputs (n, out) of inputs in `room`. A share of the inputs of the adapters is dropped;
-        those of the same input lose the same.
+        """Outputs (n, out) of float32 inputs (n, in), which are kept. A share of what the adapters
+        get is dropped; those of the same input lose the same.
         """
-        weights, first = self.adapters(), self.modules[0]
-        drop = first.lora_dropout["default"]
-        share = drop.p if isinstance(drop, nn.Dropout) and first.training else 0.0
-        scale = first.scaling["default"] / (1 - share)
-        down = torch.cat([one.detach() for one in weights[::2]]).to(inputs.dtype)
-        for up, (rows, columns) in zip(weights[1::2], self.spans, strict=True):
-            self.both[self.entries :][rows, columns].copy_(up.detach().t() * scale)
-        own, dropped = inputs[:, : self.entries].contiguous(), None
+        drop = self.first.lora_dropout["default"]
+        share = drop.p if isinstance(drop, nn.Dropout) and self.first.training else 0.0
+        scale = self.first.scaling["default"] / (1 - share)
+        down = torch.cat([one.detach() for one in self.adapters[::2]]).mul_(scale)
+        for place, up in self.ups:
+            place.copy_(up)
+        whole = self.both.new_empty(len(inputs), len(self.both))
+        whole[:, : self.entries] = inputs
+        dropped = None
         if share:
             # So many draws with replacement leave each value out with the probability `share`.
-            count = round(-math.log1p(-share) * own.numel())
-            dropped = torch.randint(own.numel(), (count,))
-            own.view(-1).index_fill_(0, dropped, 0)
-        inputs[:, self.entries :] = linear(own, down)
-        return torch.mm(inputs, self.both), (inputs, own, down, dropped, scale)
+            count = round(-math.log1p(-share) * inputs.numel())
+            dropped = torch.randint(inputs.numel(), (count,))
+            inputs.view(-1).index_fill_(0, dropped, 0)
+        inner = torch.mm(inputs, down.t())
+        whole[:, self.entries :] = inner
+        return torch.mm(whole, self.both), (inputs, inner, down, dropped, scale)
 
     def backward(self, gradient: Tensor, kept: Any) -> tuple[Tensor, list[Tensor]]:
-        """The gradients of the inputs (n, in) and of the adapters."""
-        inputs, own, down, dropped, scale = kept
-        whole = linear(gradient, self.both)
-        inner = whole[:, self.entries :].contiguous()
-        of_down = torch.mm(inner.t(), own).float()
-        of_up = torch.mm(inputs[:, self.entries :].t(), gradient).float().mul_(scale)
-        found = torch.mm(inner, down)
+        """The gradients of the inputs, float32 (n, in), and of the adapters."""
+        inputs, inner, down, dropped, scale = kept
+        whole = linear(gradient.to(torch.bfloat16), self.both)
+        of_inner = whole[:, self.entries :].float()
+        of_down = torch.mm(of_inner.t(), inputs).mul_(scale)
+        of_up = torch.mm(inner.to(gradient.dtype).t(), gradient).float()
+        found = torch.mm(of_inner, down)
         if dropped is not None:
             found.view(-1).index_fill_(0, dropped, 0)
         found += whole[:, : self.entries]
@@ -249,27 +235,28 @@ class _Norm:
     def __init__(self, norm: Any) -> None:
         self.weight, self.epsilon = norm.weight.detach().float(), norm.variance_epsilon
 
-    def forward(self, states: Tensor, into: Tensor) -> tuple[Tensor, Tensor]:
-        """Writes to the first columns of `into`."""
+    def forward(self, states: Tensor) -> tuple[Tensor, tuple[Tensor, Tensor]]:
+        """The norm, and what its backward pass needs."""
         size = states.shape[1]
         scale = torch.linalg.vector_norm(states, dim=1, keepdim=True)
         scale = scale.square_().div_(size).add_(self.epsilon).rsqrt_()
         even = states * scale
-        into[:, :size] = even * self.weight
-        return even, scale
+        return even * self.weight, (even, scale)
 
     def backward(self, inner: Tensor, kept: tuple[Tensor, Tensor], gradient: Tensor) -> None:
         """Adds the gradient of the states to `gradient`."""
         even, scale = kept
-        wide = inner.float().mul_(self.weight)
+        wide = inner * self.weight
         along = (wide * even).mean(1, keepdim=True)
         gradient.addcmul_(wide.addcmul_(even, along, value=-1), scale)
 
 
 def _attention(
-    mixed: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor, into: Tensor
-) -> tuple[Tensor, ...]:
-    """What every position finds, (rows * width, heads * size), from queries, keys and values."""
+    mixed: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor
+) -> tuple[Tensor, tuple[Tensor, ...]]:
+    """What every position finds, float32 (rows * width, heads * size), from queries, keys and values
+    side by side, and what its backward pass needs.
+    """
     _two, rows, heads, width, size = tables[0].shape
     parts = mixed.view(rows, width, 3, heads, size).permute(2, 0, 3, 1, 4)
     wide = parts[:2].to(torch.float32, memory_format=torch.contiguous_format)
@@ -278,8 +265,8 @@ def _attention(
     scores = torch.bmm(queries, keys.transpose(1, 2)).view(rows, heads, width, width)
     weights = torch.softmax(scores.add_(hidden), -1).view(-1, width, width)
     found = torch.bmm(weights, values).view(rows, heads, width, size).transpose(1, 2)
-    into.view(rows, width, heads, size).copy_(found)
-    return queries, keys, values, weights
+    wide = found.to(torch.float32, memory_format=torch.contiguous_format)
+    return wide.view(rows * width, -1), (queries, keys, values, weights)
 
 
 def _attention_backward(
@@ -288,11 +275,12 @@ def _attention_backward(
     cosine, sine = tables
     _two, rows, heads, width, size = cosine.shape
     queries, keys, values, weights = kept
-    inner = gradient.view(rows, width, heads, size).transpose(1, 2).reshape(-1, width, size)
+    inner = gradient.view(rows, width, heads, size).transpose(1, 2)
+    inner = inner.to(values.dtype, memory_format=torch.contiguous_format).view(-1, width, size)
     of_weights = torch.bmm(inner, values.transpose(1, 2))
     of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
     both = torch.stack([torch.bmm(of_scores, keys), torch.bmm(of_scores.transpose(1, 2), queries)])
-    found = gradient.new_empty(rows, width, 3, heads, size)
+    found = values.new_empty(rows, width, 3, heads, size)
     parts = found.permute(2, 0, 3, 1, 4)
     # The other way round: the transposed rotation.
     parts[:2] = _turned(both.float().view(cosine.shape), cosine, sine, way=-1)
@@ -305,16 +293,15 @@ def _turned(values: Tensor, cosine: Tensor, sine: Tensor, way: int = 1) -> Tenso
     return (values * cosine).addcmul_(torch.cat([second, first], -1), sine, value=way)
 
 
-def _gated(opened: Tensor, into: Tensor) -> tuple[Tensor, Tensor]:
-    """silu(gate) * up of (n, 2 * width)."""
+def _gated(opened: Tensor) -> tuple[Tensor, tuple[Tensor, Tensor]]:
+    """silu(gate) * up of (n, 2 * width) in float32, and what its backward pass needs."""
     gate, up = opened.chunk(2, 1)
     open_ = silu(gate)
-    torch.mul(open_, up, out=into)
-    return opened, open_
+    return (open_ * up).float(), (opened, open_)
 
 
 def _gated_backward(gradient: Tensor, kept: tuple[Tensor, Tensor]) -> Tensor:
-    opened, open_ = kept
+    (opened, open_), gradient = kept, gradient.to(kept[0].dtype)
     found = torch.empty_like(opened)
     (gate, up), (of_gate, of_up) = opened.chunk(2, 1), found.chunk(2, 1)
     torch.mul(gradient, open_, out=of_up)
