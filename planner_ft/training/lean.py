@@ -123,6 +123,7 @@ class _Decoder(torch.autograd.Function):
         states, ctx.known, ctx.kept = states.clone(), known, []
         for layer in layers:
             ctx.kept.append(layer.forward(states, tables, hidden))
+        found: Tensor
         found, ctx.last = norm.forward(states)
         return found.to(torch.bfloat16)
 
@@ -162,10 +163,10 @@ class _Layer:
         """The gradients of the adapters."""
         into, out, opening, closing = self.joined
         first, entered, attended, left, second, widened, gated, closed = kept
-        inner, of_closing = closing.backward(gradient, closed)
+        inner, of_closing = closing.backward(gradient.to(torch.bfloat16), closed)
         inner, of_opening = opening.backward(_gated_backward(inner, gated), widened)
         self.norms[1].backward(inner, second, gradient)
-        inner, of_out = out.backward(gradient, left)
+        inner, of_out = out.backward(gradient.to(torch.bfloat16), left)
         inner, of_into = into.backward(_attention_backward(inner, attended, tables), entered)
         self.norms[0].backward(inner, first, gradient)
         return [*of_into, *of_out, *of_opening, *of_closing]
@@ -173,8 +174,7 @@ class _Layer:
 
 class _Joined:
     """Projections of the same input as one: the frozen matrices side by side (in, out), and below
-    them B of their adapters, so that one multiplication takes inputs and what A makes of them. What
-    has a side as short as a rank is multiplied in float32: that begins sooner than bfloat16.
+    them B of their adapters, so that one multiplication takes inputs and what A makes of them.
     """
 
     def __init__(self, modules: Sequence[Any]) -> None:
@@ -190,16 +190,18 @@ class _Joined:
             self.spans.append((slice(row, row + len(down)), slice(column, column + len(up))))
             row, column = row + len(down), column + len(up)
         own = self.both[self.entries :]
-        self.ups = [(own[at], up.detach().t()) for at, (_down, up) in zip(self.spans, pairs)]
+        self.ups = [(own[at], up.detach().t()) for at, (_down, up) in zip(self.spans, pairs, strict=True)]
 
     def forward(self, inputs: Tensor) -> tuple[Tensor, Any]:
-        """Outputs (n, out) of float32 inputs (n, in), which are kept. A share of what the adapters
+        """Outputs (n, out) of inputs (n, in), which are kept. A of the adapters multiplies in their
+        type: float32, where they have it, begins sooner than bfloat16. A share of what the adapters
         get is dropped; those of the same input lose the same.
         """
         drop = self.first.lora_dropout["default"]
         share = drop.p if isinstance(drop, nn.Dropout) and self.first.training else 0.0
         scale = self.first.scaling["default"] / (1 - share)
         down = torch.cat([one.detach() for one in self.adapters[::2]]).mul_(scale)
+        down = down.to(inputs.dtype)
         for place, up in self.ups:
             place.copy_(up)
         whole = self.both.new_empty(len(inputs), len(self.both))
@@ -215,11 +217,11 @@ class _Joined:
         return torch.mm(whole, self.both), (inputs, inner, down, dropped, scale)
 
     def backward(self, gradient: Tensor, kept: Any) -> tuple[Tensor, list[Tensor]]:
-        """The gradients of the inputs, float32 (n, in), and of the adapters."""
+        """The gradients of the inputs, in their type, and of the adapters."""
         inputs, inner, down, dropped, scale = kept
-        whole = linear(gradient.to(torch.bfloat16), self.both)
-        of_inner = whole[:, self.entries :].float()
-        of_down = torch.mm(of_inner.t(), inputs).mul_(scale)
+        whole = linear(gradient, self.both)
+        of_inner = whole[:, self.entries :].to(inputs.dtype)
+        of_down = torch.mm(of_inner.t(), inputs).float().mul_(scale)
         of_up = torch.mm(inner.to(gradient.dtype).t(), gradient).float()
         found = torch.mm(of_inner, down)
         if dropped is not None:
@@ -254,8 +256,8 @@ class _Norm:
 def _attention(
     mixed: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor
 ) -> tuple[Tensor, tuple[Tensor, ...]]:
-    """What every position finds, float32 (rows * width, heads * size), from queries, keys and values
-    side by side, and what its backward pass needs.
+    """What every position finds, (rows * width, heads * size), from queries, keys and values side by
+    side, and what its backward pass needs.
     """
     _two, rows, heads, width, size = tables[0].shape
     parts = mixed.view(rows, width, 3, heads, size).permute(2, 0, 3, 1, 4)
@@ -265,8 +267,7 @@ def _attention(
     scores = torch.bmm(queries, keys.transpose(1, 2)).view(rows, heads, width, width)
     weights = torch.softmax(scores.add_(hidden), -1).view(-1, width, width)
     found = torch.bmm(weights, values).view(rows, heads, width, size).transpose(1, 2)
-    wide = found.to(torch.float32, memory_format=torch.contiguous_format)
-    return wide.view(rows * width, -1), (queries, keys, values, weights)
+    return found.reshape(rows * width, -1), (queries, keys, values, weights)
 
 
 def _attention_backward(
@@ -275,8 +276,7 @@ def _attention_backward(
     cosine, sine = tables
     _two, rows, heads, width, size = cosine.shape
     queries, keys, values, weights = kept
-    inner = gradient.view(rows, width, heads, size).transpose(1, 2)
-    inner = inner.to(values.dtype, memory_format=torch.contiguous_format).view(-1, width, size)
+    inner = gradient.view(rows, width, heads, size).transpose(1, 2).reshape(-1, width, size)
     of_weights = torch.bmm(inner, values.transpose(1, 2))
     of_scores = torch._softmax_backward_data(of_weights, weights, -1, weights.dtype)
     both = torch.stack([torch.bmm(of_scores, keys), torch.bmm(of_scores.transpose(1, 2), queries)])
@@ -294,14 +294,14 @@ def _turned(values: Tensor, cosine: Tensor, sine: Tensor, way: int = 1) -> Tenso
 
 
 def _gated(opened: Tensor) -> tuple[Tensor, tuple[Tensor, Tensor]]:
-    """silu(gate) * up of (n, 2 * width) in float32, and what its backward pass needs."""
+    """silu(gate) * up of (n, 2 * width), and what its backward pass needs."""
     gate, up = opened.chunk(2, 1)
     open_ = silu(gate)
-    return (open_ * up).float(), (opened, open_)
+    return open_ * up, (opened, open_)
 
 
 def _gated_backward(gradient: Tensor, kept: tuple[Tensor, Tensor]) -> Tensor:
-    (opened, open_), gradient = kept, gradient.to(kept[0].dtype)
+    opened, open_ = kept
     found = torch.empty_like(opened)
     (gate, up), (of_gate, of_up) = opened.chunk(2, 1), found.chunk(2, 1)
     torch.mul(gradient, open_, out=of_up)

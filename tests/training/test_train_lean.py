@@ -102,3 +102,39 @@ def test_samples_that_begin_alike_share_the_beginning_and_learn_the_same(trained
     (loss, gradient), (shared_loss, shared_gradient) = found
     assert shared_loss == pytest.approx(loss, rel=0.01)
     assert float(torch.nn.functional.cosine_similarity(gradient, shared_gradient, dim=0)) > 0.99
+
+
+def test_dropout_of_the_adapters_input_changes_nothing_on_average(trained, curated) -> None:
+    model, tokenizer = trained
+    if model.dtype != torch.bfloat16:
+        pytest.skip("the lean layers compute in bfloat16, which this CPU does not multiply")
+    record = next(iter(curated(1, skip=20)))
+    sample = Sample(record["id"], render_sample("mission", record, tokenizer, load_vocabulary()))
+    batch = collate([sample], 0)
+
+    def gradient(seed: int) -> torch.Tensor:
+        torch.manual_seed(seed)
+        model.zero_grad()
+        in_training.loss_sum(model, batch, torch.bfloat16).backward()
+        values = in_training.adapter_parameters(model).values()
+        return torch.cat([value.grad.flatten() for value in values])
+
+    whole = gradient(0)
+    layers = [one for one in model.modules() if hasattr(one, "lora_dropout")]
+    before = [one.lora_dropout["default"] for one in layers]
+    try:
+        for one in layers:
+            one.lora_dropout["default"] = torch.nn.Dropout(0.2)
+        dropped = [gradient(seed) for seed in range(12)]
+        assert torch.equal(dropped[0], gradient(0))
+        model.eval()
+        assert torch.equal(gradient(1), gradient(2))
+    finally:
+        model.train()
+        for one, layer in zip(before, layers, strict=True):
+            layer.lora_dropout["default"] = one
+    alike = torch.nn.functional.cosine_similarity
+    single = float(alike(dropped[0], whole, dim=0))
+    mean = torch.stack(dropped).mean(0)
+    assert single < 0.97 and float(alike(mean, whole, dim=0)) > (1 + single) / 2
+    assert float(mean.norm() / whole.norm()) == pytest.approx(1, rel=0.1)
