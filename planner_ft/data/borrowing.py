@@ -1,8 +1,9 @@
 """Commands that people wrote to the surface vehicle, translated for another vehicle.
 
 How people correct themselves, put things in order, limit and dictate hardly depends on the vehicle.
-A command is borrowed where each of its tasks is one that the other vehicle has: the way somewhere,
-a search, and the tasks that NAME.missions.toml says to be `like` one of the surface vehicle.
+A command is borrowed where each of its tasks is one that the other vehicle has: tasks that
+NAME.missions.toml says to be `like` one of the surface vehicle, and beside them the way somewhere
+and a search.
 """
 
 import re
@@ -33,6 +34,8 @@ _FIXED = {
     "position": r"\[[^\]]+\]",
 }
 """What slots say, by name or the parameter's type; the others say anything."""
+WITHOUT_LIKE = 2
+"""Tasks known from the definition: commands with the way and the search alone teach nothing."""
 Record = dict[str, Any]
 _SLOT = re.compile(r"\\\{(\w+)\\\}")
 _ORIGIN = re.compile(r"(?<![\d.])0, ?0\b")
@@ -42,10 +45,13 @@ _SENTENCE = re.compile(r"(.+?\.)(?: ([A-Z].*))?")
 
 def borrowed(vocabulary: Vocabulary, count: int, seed: int) -> list[Record]:
     """At most `count` mission records for `vocabulary`, drawn from the commands to the surface
-    vehicle (for that vehicle all of them). Raises PlannerError for a task that is `like` none, and
-    where the commands are missing.
+    vehicle (for that vehicle all of them); none for a vehicle without a task that is `like` one.
+    Raises PlannerError for a task that is `like` none, and where the commands are missing.
     """
-    translator = _Translator(load_vocabulary(), vocabulary, like_tasks(vocabulary))
+    alike = like_tasks(vocabulary)
+    if len(alike) <= WITHOUT_LIKE:
+        return []
+    translator = _Translator(load_vocabulary(), vocabulary, alike)
     records = [record for path in operators_files() for record in read_jsonl(path)]
     Random(f"borrow {seed}").shuffle(records)
     made: list[Record] = []

@@ -53,6 +53,11 @@ def test_prompts_are_in_the_words_of_the_other_vehicle() -> None:
     assert not any("geotagged" in prompt or "depth" in prompt for prompt in prompts)
 
 
+def test_a_vehicle_with_no_task_like_another_borrows_nothing() -> None:
+    rover = load_vocabulary("eval/vehicles/plant_rover/plant_rover.toml")
+    assert borrowed(rover, 9999, 0) == []
+
+
 def test_the_surface_vehicle_has_its_own() -> None:
     known = {record["prompt"]: record for path in operators_files() for record in read_jsonl(path)}
     records = borrowed(load_vocabulary(), 200, 0)
