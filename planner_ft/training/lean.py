@@ -190,7 +190,9 @@ class _Joined:
             self.spans.append((slice(row, row + len(down)), slice(column, column + len(up))))
             row, column = row + len(down), column + len(up)
         own = self.both[self.entries :]
-        self.ups = [(own[at], up.detach().t()) for at, (_down, up) in zip(self.spans, pairs, strict=True)]
+        self.ups = [
+            (own[at], up.detach().t()) for at, (_down, up) in zip(self.spans, pairs, strict=True)
+        ]
 
     def forward(self, inputs: Tensor) -> tuple[Tensor, Any]:
         """Outputs (n, out) of inputs (n, in), which are kept. A of the adapters multiplies in their
@@ -256,8 +258,8 @@ class _Norm:
 def _attention(
     mixed: Tensor, tables: tuple[Tensor, Tensor], hidden: Tensor
 ) -> tuple[Tensor, tuple[Tensor, ...]]:
-    """What every position finds, (rows * width, heads * size), from queries, keys and values side by
-    side, and what its backward pass needs.
+    """What every position finds, (rows * width, heads * size), from queries, keys and values side
+    by side, and what its backward pass needs.
     """
     _two, rows, heads, width, size = tables[0].shape
     parts = mixed.view(rows, width, 3, heads, size).permute(2, 0, 3, 1, 4)
