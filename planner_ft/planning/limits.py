@@ -6,6 +6,7 @@ for it: planning carries it into the steps as a filter (planner_ft.document.limi
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from planner_ft.facts import read
@@ -50,7 +51,8 @@ def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) 
     prompt alone among its constraints; one of some tasks that the prompt of another has holds for
     all. A time of return that the command does not say is left out,
     and one that is a duration is a time to be back within. An area that has a corner twice is the
-    one row of the command that has all of its corners.
+    one row of the command that has all of its corners, and what is kept off at one place of a row
+    is at the others, too, to which no task leads.
     """
     limits = load_limits(vocabulary)
     rows = areas_of(command) if command else []
@@ -69,6 +71,9 @@ def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) 
         if limit.kind in GENERAL and limit not in stated:
             stated.append(limit)
             constraints.append(sentence(limit.kind, limit.values, limits))
+    for limit in list(_of_rows(stated, plan["tasks"], command or "")):
+        stated.append(limit)
+        constraints.append(sentence(limit.kind, limit.values, limits))
     tasks = []
     for task, texts in zip(plan["tasks"], prompts, strict=True):
         own = limits_in(texts, limits)
@@ -179,6 +184,24 @@ def areas_of(command: str) -> list[Row]:
     text = without_geographic(command)
     rows = rows_of(text, written_positions(text))
     return [[[place.x, place.y] for place in row] for row in rows if len(row) >= CORNERS]
+
+
+def _of_rows(stated: Sequence[Limit], tasks: Sequence[Plan], command: str) -> Iterator[Limit]:
+    """The limits of "barges at 40,30 and 80,30, keep 20 m off both", where one place has one."""
+    held = [(one, list(one.values["position"])) for one in stated if "position" in one.values]
+    known = [place for _limit, place in held]
+    known += [value for task in tasks for value in task.get("parameters", {}).values()]
+    text = without_geographic(command) if held else ""
+    found = written_positions(text)
+    said = [[place.x, place.y] for place in found]
+    for row in rows_of(text, found):
+        places = [[place.x, place.y] for place in row]
+        # What is said again elsewhere may have its limit from there.
+        own = [one for one, at in held if at in places and said.count(at) == 1]
+        if [one.kind for one in own] == ["keep_out"] and not own[0].titles:
+            for place in places:
+                if place not in known:
+                    yield replace(own[0], values={**own[0].values, "position": place})
 
 
 def _whole(text: str, rows: Sequence[Row], limits: Limits, write: Write) -> str:

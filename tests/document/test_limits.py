@@ -274,6 +274,27 @@ def test_a_constraint_is_edited_and_its_filters_follow() -> None:
             apply(plan, {"kind": "constraint", **wrong}, USV)
 
 
+@pytest.mark.parametrize(
+    ("command", "others"),
+    [
+        ("Barges lie at 40,30 and 80,30. Keep 20 m off both on the way to 120,60.", ["[80, 30]"]),
+        ("Go to 120,60, 20 m clear of nets at 20,5, 40,30 and 70,9.", ["[20, 5]", "[70, 9]"]),
+        # A task leads there, or the place stands alone elsewhere.
+        ("Keep 20 m off the barge at 40,30, 120,60 is where you go.", []),
+        ("Pass 40,30 and 80,30 on the way to 120,60. Keep 20 m off the barge at 40,30.", []),
+        ("Keep 20 m off the barge at 40,30 and go to 120,60.", []),
+    ],
+)
+def test_what_is_kept_off_at_one_place_of_a_row_is_at_the_others(command, others) -> None:
+    text = "The vehicle stays at least 20 m from the barge at {}."
+    way = task("Transit", {"target_position": [120, 60]}, None, "Go to [120, 60].")
+    plan = {"tasks": [way], "constraints": [text.format("[40, 30]")]}
+    told = with_limits(plan, USV, command)
+    assert told["constraints"] == [text.format(at) for at in ("[40, 30]", *others)]
+    for at in others:
+        assert f"Keep at least 20 m from the barge at {at}." in told["tasks"][0]["task_prompt"]
+
+
 def test_the_origin_of_a_plan_locates_its_geographic_places() -> None:
     words = "54.3217 N, 10.1412 E"
     go = task("Transit", {"target_position": [-99, -99]}, None, f"Go to {words}.")

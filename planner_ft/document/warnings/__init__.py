@@ -93,6 +93,7 @@ CHECKS: tuple[Check, ...] = (
         places.positions,
         places.passed,
         limits.lost_limits,
+        limits.of_a_row,
         repeats.repeats,
         repeats.each,
     ),

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.document.language import Clause, language, read_clauses
-from planner_ft.document.track import Track, bearing, place_of
+from planner_ft.document.track import Point, Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.geographic import without_geographic
 from planner_ft.facts.geometry import corners_of
@@ -319,6 +319,18 @@ def _ways(places: Sequence[Sequence[float]], command: Input) -> Iterator[float]:
         told = ground and (ground.is_way_off((x, y), base) or (any(base) and away in ground.places))
         if any(away) and told:
             yield from (*away, math.hypot(*away), bearing(base, (x, y)))
+
+
+def done_at(case: Case) -> dict[Point, set[str]]:
+    """The titles of the tasks at each place, but for the ways to it."""
+    done, at = dict[Point, set[str]](), None
+    for task in case.tasks:
+        at = place_of(task, case.vocabulary) or at
+        if at is not None:
+            own = {task["title"]} - {case.vocabulary.transit, case.vocabulary.locate}
+            key = next((one for one in done if all(map(near, one, at))), at)
+            done[key] = done.get(key, set()) | own
+    return done
 
 
 def same_place(place: Position, other: Sequence[float]) -> bool:

@@ -24,6 +24,7 @@ from planner_ft.document.warnings.case import (
     LONGER,
     Case,
     Warning,
+    done_at,
     quoted,
     same_place,
     skills_of,
@@ -32,6 +33,7 @@ from planner_ft.document.warnings.case import (
 from planner_ft.document.warnings.data import asked_skills
 from planner_ft.facts import is_place, near
 from planner_ft.facts.clock import read_times
+from planner_ft.facts.places import BESIDE
 from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.planning.shapes import face_of
@@ -89,6 +91,34 @@ def unplaced(case: Case) -> Iterator[Warning]:
                 words = {"limit": limit["text"].rstrip("."), "about": f"{how}:{limit['text']}"}
                 yield warning("limit-broken", "task", case.by_id[found[0]], how=how, **words)
                 break
+
+
+def of_a_row(case: Case) -> Iterator[Warning]:
+    """Limits at one place of a row alone: "moorings at 40,10 and 80,20, keep 15 m off both"; also
+    of "the mooring at 40,10 and the one at 80,20", where the plan does nothing at the other.
+    """
+    values = (limit["values"] for limit in case.limits)
+    kept = [one["position"] for one in values if "position" in one]
+    held = [one for one in case.positions if any(same_place(one, at) for at in kept)]
+    done = done_at(case) if held else {}
+    busy = [one for one in case.positions if any(same_place(one, at) for at in done if done[at])]
+    for one, other in itertools.pairwise(case.positions):
+        if (one in held) == (other in held):
+            continue
+        between, free = case.text[one.end : other.start], other if one in held else one
+        # What also stands alone has its limit, or its task, from there.
+        again = [place for place in case.positions if same_place(place, (free.x, free.y))]
+        named = one in held and free not in busy and _goes_on(between)
+        if len(again) == 1 and (named or BESIDE.fullmatch(between)):
+            words = quoted(case.text[one.start : other.end])
+            if not case.plan.encloses([one, other]):
+                yield warning("limit-lost", "row", about=words.casefold(), words=words)
+
+
+def _goes_on(words: str) -> bool:
+    """Whether words behind a place name another thing: "and the one at"."""
+    joined, _and, name = words.lstrip(" ,)]").partition("and ")
+    return not joined and bool(ARTICLE.match(name)) and not re.search(r"[\d.:;!?]", name)
 
 
 def _meant(thing: str, case: Case) -> Iterator[Point]:

@@ -8,10 +8,19 @@ from typing import Any
 from planner_ft.document.language import Clause
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import OVER, ROUND, bars, structures, way_off
-from planner_ft.document.track import Point, place_of, shown
+from planner_ft.document.track import place_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings import picked
-from planner_ft.document.warnings.case import Case, Warning, lost, quoted, same_place, spot, warning
+from planner_ft.document.warnings.case import (
+    Case,
+    Warning,
+    done_at,
+    lost,
+    quoted,
+    same_place,
+    spot,
+    warning,
+)
 from planner_ft.document.warnings.said import CORRECTED, NO
 from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.geographic import lone_coordinates, read_geographic
@@ -166,7 +175,7 @@ def rows(case: Case) -> Iterator[Warning]:
 
 def uneven_rows(case: Case) -> Iterator[Warning]:
     """A position to which the plan only goes, where it does one thing at all others of its row."""
-    done = _done_at(case) if case.rows else {}
+    done = done_at(case) if case.rows else {}
     for row in case.rows:
         points = [(place.x, place.y) for place in row]
         titles = [
@@ -200,18 +209,6 @@ def done_again(case: Case) -> Iterator[Warning]:
         if said == 1 and one in done and (task["title"] != known.transit or ends):
             yield warning("value-not-said", "asked", task, about="asked")
         done.append(one)
-
-
-def _done_at(case: Case) -> dict[Point, set[str]]:
-    """The titles of the tasks at each place, but for the ways to it."""
-    done, at = dict[Point, set[str]](), None
-    for task in case.tasks:
-        at = place_of(task, case.vocabulary) or at
-        if at is not None:
-            own = {task["title"]} - {case.vocabulary.transit, case.vocabulary.locate}
-            key = next((one for one in done if all(map(near, one, at))), at)
-            done[key] = done.get(key, set()) | own
-    return done
 
 
 def unvisited(case: Case) -> Iterator[Warning]:

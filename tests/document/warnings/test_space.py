@@ -362,3 +362,23 @@ def test_a_ring_round_home_wants_words_for_home() -> None:
     assert len(told(plan, "value-not-said")) == 1
     plan = document([ring((0, 0), (10, 0))], command="Survey [0, 0] at 10 m.")
     assert told(plan, "value-not-said") == []
+
+
+@pytest.mark.parametrize(
+    ("command", "count"),
+    [
+        ("Moorings at 40,10 and 80,40: stay 15 m clear of both. Go to 80,40.", 0),
+        ("Stay 15 m clear of the moorings at 40,10 and 80,40.", 1),
+        ("Stay 15 m clear of the mooring at 40,10 and the one at 80,40.", 1),
+        ("Stay 15 m clear of the mooring at 40,10 and go to 80,40.", 0),
+        ("Stay 15 m clear of the mooring at 40,10. The one at 80,40 comes next.", 0),
+    ],
+)
+def test_a_limit_at_one_place_of_a_row_is_told(command: str, count: int) -> None:
+    plan = document(
+        [go((80, 40))],
+        command=command,
+        constraints=["The vehicle stays at least 15 m from the mooring at [40, 10]."],
+    )
+    found = [one for one in told(plan, "limit-lost") if "one of these places" in one]
+    assert len(found) == count
