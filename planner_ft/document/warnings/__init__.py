@@ -94,6 +94,7 @@ CHECKS: tuple[Check, ...] = (
         places.passed,
         limits.lost_limits,
         limits.of_a_row,
+        limits.unsaid_areas,
         repeats.repeats,
         repeats.each,
     ),

@@ -93,6 +93,23 @@ def unplaced(case: Case) -> Iterator[Warning]:
                 break
 
 
+def unsaid_areas(case: Case) -> Iterator[Warning]:
+    """Areas of limits that the command gives neither by all of their corners, nor by two opposite
+    ones or the bounds of both axes: four numbers, one behind the other.
+    """
+    numbers = [number.value for number in case.numbers]
+    bounds = [sorted(numbers[at : at + 4]) for at in range(len(numbers) - 3)]
+    # "From -100 to 100 both ways".
+    bounds += [sorted(2 * pair) for pair in itertools.pairwise(numbers)]
+    for limit in case.limits:
+        corners = limit["values"].get("polygon", ())
+        at = [any(same_place(place, corner) for place in case.positions) for corner in corners]
+        sides = sorted(end(side) for side in zip(*corners, strict=True) for end in (min, max))
+        if not all(at) and not any(all(map(near, sides, four)) for four in bounds):
+            text = limit["text"].rstrip(".")
+            yield warning("value-not-said", "limit", about=text.casefold(), limit=text)
+
+
 def of_a_row(case: Case) -> Iterator[Warning]:
     """Limits at one place of a row alone: "moorings at 40,10 and 80,20, keep 15 m off both"; also
     of "the mooring at 40,10 and the one at 80,20", where the plan does nothing at the other.

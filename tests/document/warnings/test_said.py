@@ -191,7 +191,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Map 50 by 50 at 9,9, 40 wide 40 long, 10 m lines.", [grid(50, 50)], (), "value-lost"),
         ("Go to 9,9, a pillar is right at 30,9 so don't hit it.", [to(9, 9)], (), "limit-lost"),
         ("To 9,9, log 211234500 -- typo, it's 211234560.", [to(9, 9)], (), "value-lost"),
-        (PILES, [to(9, 0), to(120, -5)], (KEPT,), "repeat-lost"),
+        (PILES, [to(9, 0), to(120, -5)], (KEPT,), "repeat-lost limit-lost"),
         ("Not a knot over 3 kn to 9,9.", [to(9, 9)], (), "limit-lost"),
         (
             "Twice up and down between 1,0 and 9,0.",

@@ -382,3 +382,26 @@ def test_a_limit_at_one_place_of_a_row_is_told(command: str, count: int) -> None
     )
     found = [one for one in told(plan, "limit-lost") if "one of these places" in one]
     assert len(found) == count
+
+
+@pytest.mark.parametrize(
+    ("command", "count"),
+    [
+        ("Stay inside x 0 to 50, y -10 to 30.", 0),
+        ("Stay inside x 0..50 y -10..30.", 0),
+        ("Stay between 0,-10 and 50,30.", 0),
+        ("Stay inside 0,-10 50,-10 50,30 0,30.", 0),
+        ("Stay inside the area between x 0 and 50, go to 40,30.", 1),
+    ],
+)
+def test_an_area_that_nobody_said_is_told(command: str, count: int) -> None:
+    area = "The vehicle stays inside [0, -10], [50, -10], [50, 30], [0, 30]."
+    plan = document([go((40, 30))], command=command, constraints=[area])
+    assert [area[:-1] in one for one in told(plan, "value-not-said")].count(True) == count
+
+
+def test_an_area_is_as_wide_both_ways() -> None:
+    area = "The vehicle stays inside [-9, -9], [9, -9], [9, 9], [-9, 9]."
+    command = "Go to 4,3. Stay within -9 to 9 both ways."
+    plan = document([go((4, 3))], command=command, constraints=[area])
+    assert not told(plan, "value-not-said")
