@@ -19,7 +19,7 @@ from planner_ft.training.settings import TrainSettings
 LOGIT_VALUES = 2**24
 """Output-layer values that exist at one time: 16 million, 64 MiB in float32."""
 SMALL_MODEL = 50_000_000
-"""Weights below which a single sample has one CPU thread: small operations wait for the slower."""
+"""Weights below which one CPU thread is used: every small operation waits for the slower thread."""
 PACKING_TYPES = ("llama", "qwen2")
 UNPACKED_SHARE = 4
 """Weights are unpacked where they fit this often into the free memory."""
@@ -29,8 +29,7 @@ LARGE_MODEL = 500_000_000
 
 def cpu_threads(settings: TrainSettings, parameters: int) -> int:
     """Threads that a run on the CPU uses."""
-    one = parameters < SMALL_MODEL and settings.batch_size == 1
-    return settings.threads or (1 if one else torch.get_num_threads())
+    return settings.threads or (1 if parameters < SMALL_MODEL else torch.get_num_threads())
 
 
 def attach_adapter(model: Any, settings: TrainSettings, reference: str) -> Any:
