@@ -66,7 +66,7 @@ def sentences(drone: Results, surface: Results, trained: dict, commands: int) ->
     return [
         "Shown the drone's tasks in its prompt alone, the base reaches"
         f" {figures(rows['base'])}, held to the schema {figures(rows['base+schema'])}; an"
-        f" adapter trained on {commands} commands and {copies} copies with other values in"
+        f" adapter trained on {commands} commands, and {copies} copies and borrowed ones, in"
         f" {clock(seconds)} minutes reaches"
         f" {figures(rows['lora'])}, by F1 {verdict(drone, 'base', 'lora', 'f1')}.",
         "With the facts of the command enforced the same adapter reaches"
