@@ -95,6 +95,11 @@ def test_a_bad_case_is_named_by_file_and_line(tmp_path: Path, case: Any, said: s
     assert str(error.value).startswith(f"{path}:2: ") and said in str(error.value)
 
 
+def test_every_case_that_ships_can_be_run() -> None:
+    files = sorted(Path("eval/field").rglob("*.jsonl"))
+    assert len(load_cases(files, USV)) == 519
+
+
 def test_cases_are_run_from_the_shell(tmp_path: Path) -> None:
     wrong = {**GOOD, "id": "b", "kind": "limit", "expect": [{"lacks": "Transit"}], "danger": True}
     lost = {**GOOD, "id": "c", "locate": {"reef": [1, 2]}, "expect": [{"says": "reef"}]}
