@@ -95,6 +95,7 @@ CHECKS: tuple[Check, ...] = (
         limits.lost_limits,
         limits.of_a_row,
         limits.unsaid_areas,
+        limits.unsaid_ways,
         repeats.repeats,
         repeats.each,
     ),

@@ -6,7 +6,7 @@ import functools
 import itertools
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, ends_with
@@ -33,12 +33,12 @@ from planner_ft.document.warnings.case import (
 from planner_ft.document.warnings.data import asked_skills
 from planner_ft.facts import is_place, near
 from planner_ft.facts.clock import read_times
-from planner_ft.facts.places import BESIDE
+from planner_ft.facts.places import BESIDE, read_bearings
 from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.planning.shapes import face_of
 from planner_ft.vocabulary import Entry
-from planner_ft.vocabulary.limits import load_limits
+from planner_ft.vocabulary.limits import load_limits, read_limit
 
 TOLERANCE = 0.5  # metres by which a leg may miss a limit
 LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
@@ -101,13 +101,31 @@ def unsaid_areas(case: Case) -> Iterator[Warning]:
     bounds = [sorted(numbers[at : at + 4]) for at in range(len(numbers) - 3)]
     # "From -100 to 100 both ways".
     bounds += [sorted(2 * pair) for pair in itertools.pairwise(numbers)]
-    for limit in case.limits:
+    proposed = _is_proposed(case)
+    for limit in (one for one in case.limits if proposed(one["text"])):
         corners = limit["values"].get("polygon", ())
         at = [any(same_place(place, corner) for place in case.positions) for corner in corners]
         sides = sorted(end(side) for side in zip(*corners, strict=True) for end in (min, max))
         if not all(at) and not any(all(map(near, sides, four)) for four in bounds):
             text = limit["text"].rstrip(".")
             yield warning("value-not-said", "limit", about=text.casefold(), limit=text)
+
+
+def unsaid_ways(case: Case) -> Iterator[Warning]:
+    """Directions in constraints that are no limits, and in no words of the command."""
+    said = {one.value % 360 for one in read_bearings(case.text)}
+    known = load_limits(case.vocabulary)
+    for text in filter(_is_proposed(case), case.document.get("constraints", ())):
+        new = any(one.value % 360 not in said for one in read_bearings(text))
+        if new and read_limit(text, known) is None:
+            about = text.rstrip(".")
+            yield warning("value-not-said", "limit", about=about.casefold(), limit=about)
+
+
+def _is_proposed(case: Case) -> Callable[[str], bool]:
+    """Whether the planner has made a constraint, and no operator."""
+    proposed = case.document.get("proposed", {}).get("constraints")
+    return lambda text: proposed is None or text in proposed
 
 
 def of_a_row(case: Case) -> Iterator[Warning]:

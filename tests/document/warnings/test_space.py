@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from planner_ft.document import PlanDocument, revise
+from planner_ft.document.edits import apply
 
 from ...documents import USV, document, step, task
 
@@ -405,3 +406,19 @@ def test_an_area_is_as_wide_both_ways() -> None:
     command = "Go to 4,3. Stay within -9 to 9 both ways."
     plan = document([go((4, 3))], command=command, constraints=[area])
     assert not told(plan, "value-not-said")
+
+
+@pytest.mark.parametrize(
+    ("command", "count"),
+    [
+        ("Pass the buoy at [40, 3] on its west side, on to 9,3.", 0),
+        ("Pass the buoy. Go to 9,3.", 1),
+    ],
+)
+def test_a_direction_of_a_constraint_that_nobody_said_is_told(command: str, count: int) -> None:
+    text = "Stay west of the buoy at [40, 3]."
+    plan = document([go((9, 3))], command=command, constraints=[text])
+    found = [text[:-1] in one for one in told(plan, "value-not-said")]
+    assert found.count(True) == count
+    edited = apply(plan, {"kind": "constraint", "at": 1, "text": "Stay east of the pier."}, USV)
+    assert not any("east of the pier" in one for one in told(edited, "value-not-said"))
