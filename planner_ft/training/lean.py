@@ -38,7 +38,7 @@ def lean_states(
     tables = _tables(body, states, where)
     hidden = _hidden(where, shared if positions is not None else 0)
     weights = [pair for layer in layers for joined in layer.joined for pair in joined.adapters]
-    known = layers, _Norm(body.norm), tables, hidden
+    known = layers, _Norm(body.norm), tables, hidden, torch.is_grad_enabled()
     found: Tensor = _Decoder.apply(states, known, *weights)  # type: ignore[no-untyped-call]
     return found.view(rows, width, -1)
 
@@ -119,17 +119,18 @@ class _Decoder(torch.autograd.Function):
 
     @staticmethod
     def forward(ctx: Any, states: Tensor, known: Any, *weights: Tensor) -> Tensor:
-        layers, norm, tables, hidden = known
+        layers, norm, tables, hidden, learns = known
         states, ctx.known, ctx.kept = states.clone(), known, []
         for layer in layers:
-            ctx.kept.append(layer.forward(states, tables, hidden))
+            kept = layer.forward(states, tables, hidden)
+            ctx.kept += [kept] if learns else []
         found: Tensor
         found, ctx.last = norm.forward(states)
         return found.to(torch.bfloat16)
 
     @staticmethod
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
-        layers, norm, tables, _hidden = ctx.known
+        layers, norm, tables, *_ = ctx.known
         gradient, found = torch.zeros(gradients[0].shape), list[list[Tensor]]()
         norm.backward(gradients[0].float(), ctx.last, gradient)
         for layer, kept in zip(reversed(layers), reversed(ctx.kept), strict=True):
