@@ -175,7 +175,8 @@ class _Layer:
 
 class _Joined:
     """Projections of the same input as one: the frozen matrices side by side (in, out), and below
-    them B of their adapters, so that one multiplication takes inputs and what A makes of them.
+    them B of their adapters, so that one multiplication takes inputs and what A makes of them. B is
+    that of the last forward pass: the backward pass comes before the adapters change.
     """
 
     def __init__(self, modules: Sequence[Any]) -> None:

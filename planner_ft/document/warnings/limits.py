@@ -33,7 +33,7 @@ from planner_ft.document.warnings.case import (
 from planner_ft.document.warnings.data import asked_skills
 from planner_ft.facts import is_place, near
 from planner_ft.facts.clock import read_times
-from planner_ft.facts.places import BESIDE, read_bearings
+from planner_ft.facts.places import BESIDE, read_bearings, rows_of_sizes
 from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.planning.shapes import face_of
@@ -94,19 +94,22 @@ def unplaced(case: Case) -> Iterator[Warning]:
 
 
 def unsaid_areas(case: Case) -> Iterator[Warning]:
-    """Areas of limits that the command gives neither by all of their corners, nor by two opposite
-    ones or the bounds of both axes: four numbers, one behind the other.
+    """Areas of limits that the command gives in no way: by all corners, by two opposite ones or the
+    bounds of both axes (four numbers, one behind the other), or by a middle and two sides.
     """
     numbers = [number.value for number in case.numbers]
-    bounds = [sorted(numbers[at : at + 4]) for at in range(len(numbers) - 3)]
+    bounds = [sorted(numbers[first : first + 4]) for first in range(len(numbers) - 3)]
     # "From -100 to 100 both ways".
     bounds += [sorted(2 * pair) for pair in itertools.pairwise(numbers)]
+    for (width, length, *_), at in itertools.product(rows_of_sizes(case.text), case.positions):
+        wide, long = width.value / 2, length.value / 2
+        bounds.append(sorted((at.x - wide, at.x + wide, at.y - long, at.y + long)))
     proposed = _is_proposed(case)
     for limit in (one for one in case.limits if proposed(one["text"])):
         corners = limit["values"].get("polygon", ())
-        at = [any(same_place(place, corner) for place in case.positions) for corner in corners]
+        said = [any(same_place(place, corner) for place in case.positions) for corner in corners]
         sides = sorted(end(side) for side in zip(*corners, strict=True) for end in (min, max))
-        if not all(at) and not any(all(map(near, sides, four)) for four in bounds):
+        if not all(said) and not any(all(map(near, sides, four)) for four in bounds):
             text = limit["text"].rstrip(".")
             yield warning("value-not-said", "limit", about=text.casefold(), limit=text)
 

@@ -392,6 +392,8 @@ def test_a_limit_at_one_place_of_a_row_is_told(command: str, count: int) -> None
         ("Stay inside x 0..50 y -10..30.", 0),
         ("Stay between 0,-10 and 50,30.", 0),
         ("Stay inside 0,-10 50,-10 50,30 0,30.", 0),
+        ("Stay inside the 50 by 40 m box around 25,10.", 0),
+        ("Stay inside the 40 by 50 m box around 25,10.", 1),
         ("Stay inside the area between x 0 and 50, go to 40,30.", 1),
     ],
 )
