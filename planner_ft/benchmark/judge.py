@@ -37,14 +37,14 @@ class Judge:
         assert prepared.validation and prepared.tokenizer
         self.request, self.run, self.tokenizer = request, run, prepared.tokenizer
         count = request.settings.validation_answers
-        self.records = prepared.validation.records[:count]
+        self.records = run.ranks.share(prepared.validation.records[:count])
         longest = max(one.completion_length for one in prepared.validation.samples)
         named = run.model.get_base_model().generation_config.eos_token_id
         ends = tuple(ends_of_answers(self.tokenizer, named))
         self.limits = Limits(ends, int(ROOM * longest))
 
     def answers(self, *, adapter: bool) -> list[Answer]:
-        """The scores of the answers; those of the base are prompted as a benchmark prompts it."""
+        """The scores of the answers, which all processes share; those of the base are prompted as a benchmark prompts it."""
         model, level, vocabulary = self.run.model, self.request.level, self.request.vocabulary
         trained = self.request.settings.vocabulary_in_prompt
         told = trained if adapter else not self.request.candidate.knows(vocabulary)
@@ -61,7 +61,8 @@ class Judge:
                     stack.enter_context(model.disable_adapter())
                 one = decoder or ModelDecoder(model)
                 found = generate(one, queries, self.limits, Method(), batch_size=BATCH)
-        return [self._scored(*pair) for pair in zip(self.records, found, strict=True)]
+        scored = [self._scored(*pair) for pair in zip(self.records, found, strict=True)]
+        return self.run.ranks.gather(scored)
 
     def _scored(self, record: dict[str, Any], answer: Generation) -> Answer:
         how = {"skip_special_tokens": False, "clean_up_tokenization_spaces": False}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import shlex
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -21,7 +22,7 @@ from planner_ft.cli.options import (
 )
 from planner_ft.support.alone import alone
 from planner_ft.support.errors import PlannerError
-from planner_ft.support.ranks import Ranks, join_ranks
+from planner_ft.support.ranks import Ranks, helped, join_ranks
 from planner_ft.support.resources import clock, memory_size
 from planner_ft.support.terminal import show, terminal
 from planner_ft.training.settings import ABOUT, FIELDS, default_text, kind_of
@@ -88,8 +89,10 @@ def _train(request: Any, console: Console, ranks: Ranks) -> None:
     from planner_ft.training.loop import InterruptedRunError
     from planner_ft.training.run import train as run_training
 
+    is_helped = ranks.world == 1 and request.is_helped
     try:
-        manifest = run_training(request, console, Judge, ranks)
+        with helped() if is_helped else nullcontext(ranks) as ranks:
+            manifest = run_training(request, console, Judge, ranks)
     except InterruptedRunError as stop:
         if ranks.leads:
             done = f"stopped at step {stop.step} of {stop.total}, all saved"

@@ -14,6 +14,7 @@ from typing import Any
 
 import planner_ft
 from planner_ft.support.files import sha256_file
+from planner_ft.support.resources import cores
 
 LIBRARIES = (
     *("torch", "transformers", "peft", "bitsandbytes", "accelerate", "datasets"),
@@ -51,12 +52,12 @@ def hardware() -> dict[str, Any]:
     memory: int | None = None
     with contextlib.suppress(ValueError, OSError):
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    machine, allowed = platform.machine(), getattr(os, "sched_getaffinity", None)
+    machine = platform.machine()
     return {
         # Without the kernel's release, which says more about a host than about a result.
         "platform": "-".join((platform.system(), machine, *platform.libc_ver())),
         "processor": machine,
-        "cores": len(allowed(0)) if allowed else os.cpu_count(),
+        "cores": cores(),
         "memory_bytes": memory,
     }
 

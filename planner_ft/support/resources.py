@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import resource
 import signal
 import sys
@@ -37,6 +38,12 @@ def reset_peak_memory(device: torch.device) -> None:
     with contextlib.suppress(OSError):
         # 5: forget the highest resident size (proc(5), clear_refs).
         Path("/proc/self/clear_refs").write_text("5")
+
+
+def cores() -> int:
+    """The CPU cores that this process may use."""
+    allowed = getattr(os, "sched_getaffinity", None)
+    return len(allowed(0)) if allowed else os.cpu_count() or 1
 
 
 def clock(seconds: float) -> str:

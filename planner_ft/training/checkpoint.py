@@ -85,7 +85,7 @@ class Run:
         self.optimizer = make_optimizer(self.model, self.settings)
         half = self.dtype == torch.float16
         self.scaler = torch.amp.GradScaler(self.device.type, enabled=half)
-        size = self.settings.batch_size * self.settings.gradient_accumulation * self.ranks.world
+        size = self.settings.batch_size * self.settings.gradient_accumulation * self.ranks.batches
         self.steps_per_epoch = -(-len(self.train) // size)
         steps = self.settings.epochs * self.steps_per_epoch
         self.total_steps = min(steps, self.settings.max_steps or steps)

@@ -118,7 +118,7 @@ def _remaining_steps(run: Run) -> Iterator[list[list[int]]]:
     """The batches of every optimiser step from the state's on."""
     lengths, state, s = [sample.length for sample in run.train], run.state, run.settings
     for epoch in range(state.step // run.steps_per_epoch, s.epochs):
-        count = s.gradient_accumulation * run.ranks.world
+        count = s.gradient_accumulation * run.ranks.batches
         steps = epoch_steps(lengths, s.batch_size, count, s.seed, epoch)
         for step in steps[state.step % run.steps_per_epoch :]:
             if state.step >= run.total_steps:
@@ -137,7 +137,7 @@ def _step(run: Run, indices: list[list[int]]) -> None:
     count = sum(sample.completion_length for sample in samples)
     together = LONGEST if is_lean(run.model, run.device) else 0
     batches = [
-        collate(batch, run.pad, packed=packed, together=together) for batch in run.ranks.share(step)
+        collate(batch, run.pad, packed=packed, together=together) for batch in run.ranks.parts(step)
     ]
     if run.ranks.world > 1:  # dropout of its own for each, whatever a resumed run drew before
         torch.manual_seed(hash((run.settings.seed, state.step, run.ranks.rank)))

@@ -208,6 +208,7 @@ def _result(run: Run, adapter: Path) -> Values:
         "history": state.history,
         **judged,
         "peak_memory_bytes": peak_memory(run.device),
+        "helped": run.ranks.divided,
         "device": torch.cuda.get_device_name(run.device) if gpu else str(run.device),
         "compute_dtype": str(run.dtype).removeprefix("torch."),
         "adapter_parameters": sum(one.numel() for one in adapter_parameters(run.model).values()),

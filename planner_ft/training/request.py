@@ -11,6 +11,7 @@ from planner_ft.prompts import PROMPT_VERSION
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import read_toml
 from planner_ft.support.ranks import ALONE, Ranks
+from planner_ft.support.resources import cores
 from planner_ft.training.settings import Origin, Source, TrainSettings, departures, resolve_settings
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.plans import Level, check_level
@@ -19,6 +20,8 @@ T = TypeVar("T")
 BUNDLED = Path(__file__).parent / "recipes"
 LAUNCHED = {"ACCELERATE_USE_FSDP": "FSDP", "ACCELERATE_USE_DEEPSPEED": "DeepSpeed"}
 """Variables of accelerate's launcher for models in parts."""
+WORTH_HELP = 600
+"""Samples of all epochs from which a second process repays the ten seconds of its start."""
 RUN_KEYS = (
     *("level", "candidate", "vocabulary", "data_dir", "train_file", "validation_file"),
     *("corrections", "output"),
@@ -60,6 +63,23 @@ class TrainRequest:
             "settings": self.settings.learned(),
             "processes": self.processes,
         }
+
+    @property
+    def is_helped(self) -> bool:
+        """Whether a second process should do half of every batch: a small model has one CPU thread,
+        and the run is long enough to repay the process's start.
+        """
+        from planner_ft.candidates.loading import resolve_device
+        from planner_ft.training.model import SMALL_MODEL
+
+        s, small = self.settings, (self.candidate.parameters or SMALL_MODEL) < SMALL_MODEL
+        alone = s.threads or not small or s.batch_size == 1 or cores() == 1
+        if alone or resolve_device(s.device).type != "cpu":
+            return False
+        files = [one for one in (self.train_file, self.corrections) if one and one.is_file()]
+        written = sum(one.read_bytes().count(b"\n") for one in files)
+        count = s.epochs * min(written * (1 + s.vary) + s.augment, s.max_samples or 10**9)
+        return min(count, s.batch_size * (s.max_steps or count)) >= WORTH_HELP
 
     def departures(self) -> list[str]:
         """Sentences on published settings that this run does not use."""
@@ -143,7 +163,7 @@ def build_request(
     corrections = _path(named.get("corrections"))
     paths, again = (*files, output), (overwrite, resume)
     return TrainRequest(
-        level, candidate, vocabulary, *paths, settings, origin, *again, corrections, ranks.world
+        level, candidate, vocabulary, *paths, settings, origin, *again, corrections, ranks.batches
     )
 
 

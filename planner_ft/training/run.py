@@ -64,15 +64,16 @@ def train(
     request: TrainRequest, console: Console, new_judge: NewJudge | None = None, ranks: Ranks = ALONE
 ) -> dict[str, Any] | None:
     """Run the checks, train, write the adapter folder and return its manifest. What `new_judge`
-    makes answers validation samples after each epoch. Of several processes the first does so; the
-    others add gradients.
+    makes answers validation samples after each epoch. Several processes share all work; the first
+    writes.
 
     None when --resume finds the run complete, and for the others. Raises PlannerError for anything
     that the user can put right, and InterruptedRunError after Ctrl-C.
     """
     if not ranks.leads:
-        console, new_judge = terminal(quiet=True), None
-    for text in request.departures():
+        console = terminal(quiet=True)
+    helped = ["a second process does half of every batch (--threads 1: none)"] * ranks.divided
+    for text in [*request.departures(), *helped]:
         console.print(f"note: {text}")
     with alone(request.output if ranks.leads else None, "--output", "a training"):
         prepared = Prepared()
