@@ -126,15 +126,19 @@ def begun_otherwise(case: Case) -> Iterator[Warning]:
     for clause in case.clauses if sides else ():
         begun = case.words["begins"].search(clause.text)
         behind = clause.text[begun.end() :].rstrip(" ,;.") if begun else ""
-        # "Start at the north buoy" names no side.
-        named = [
-            one.value
-            for one in read_bearings(behind)
-            if case.words["side"].fullmatch(behind[one.end :].strip() or "side")
-        ]
+        named = [one.value for one in read_bearings(behind) if _is_side(one, behind, case)]
         turns = [abs((one - side + 180) % 360 - 180) for one in named for side in sides]
         if turns and min(turns) > HALF_SIDE and not clause.corrected:
             yield lost(clause.text.strip(" ,;."))
+
+
+def _is_side(direction: Number, said: str, case: Case) -> bool:
+    """Whether a direction is a side: "south", "the south face", "south of it", but no "buoy south
+    of the pier" and no "north buoy".
+    """
+    rest = said[direction.end :].strip()
+    of_it = rest.startswith("of ") and not said[: direction.start].strip()
+    return of_it or bool(case.words["side"].fullmatch(rest or "side"))
 
 
 def turned_by_bearing(case: Case) -> Iterator[Warning]:

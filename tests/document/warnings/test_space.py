@@ -349,6 +349,9 @@ def ring(at: tuple[float, float], first: tuple[float, float]) -> dict[str, Any]:
         ("starting north", (70, 60), True),
         ("starting in the north-east corner", (70, 70), False),
         ("start with the north buoy", (70, 60), False),
+        ("start south of it", (60, 70), True),
+        ("start south of it", (60, 50), False),
+        ("start at the buoy south of the pier", (60, 70), False),
     ],
 )
 def test_a_ring_begins_on_the_side_that_is_said(
