@@ -47,12 +47,12 @@ def limits_in(texts: list[str], limits: Limits) -> list[Limit]:
 
 
 def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) -> dict[str, Any]:
-    """The mission plan with its limits in the prompts of all tasks, and those that stand in one
-    prompt alone among its constraints; one of some tasks that the prompt of another has holds for
-    all. A time of return that the command does not say is left out,
-    and one that is a duration is a time to be back within. An area that has a corner twice is the
-    one row of the command that has all of its corners, and what is kept off at one place of a row
-    is at the others, too, to which no task leads.
+    """The mission plan with its limits in the prompts of all tasks, each sentence once, and those
+    that stand in one prompt alone among its constraints; one of some tasks that the prompt of
+    another has holds for all. A time of return that the command does not say is left out, and one
+    that is a duration is a time to be back within. An area that has a corner twice is the one row
+    of the command that has all of its corners, and what is kept off at one place of a row is at the
+    others, too, to which no task leads.
     """
     limits = load_limits(vocabulary)
     rows = areas_of(command) if command else []
@@ -62,7 +62,8 @@ def with_limits(plan: Plan, vocabulary: Vocabulary, command: str | None = None) 
         return list(_kept(whole, command, limits, write))
 
     constraints = kept(plan.get("constraints", ()), sentence)
-    prompts = [kept(SENTENCE.split(task["task_prompt"]), prompt_sentence) for task in plan["tasks"]]
+    split = (dict.fromkeys(SENTENCE.split(task["task_prompt"])) for task in plan["tasks"])
+    prompts = [kept(texts, prompt_sentence) for texts in split]
     titles = [task["title"] for task in plan["tasks"]]
     told = [*zip(titles, (limits_in(own, limits) for own in prompts), strict=True)]
     constraints = list(dict.fromkeys(_for_all(text, told, limits) for text in constraints))

@@ -73,6 +73,15 @@ def test_a_limit_of_one_task_that_others_are_told_holds_for_all() -> None:
     assert with_limits({"tasks": alone, "constraints": [text]}, USV)["constraints"] == [text]
 
 
+def test_a_sentence_of_a_task_prompt_stands_once() -> None:
+    said = (
+        "Sound it. Start in the north-west corner. Start in the north-west corner. Log the depth."
+    )
+    told = with_limits({"tasks": [{"title": "Transit", "task_prompt": said}]}, USV)
+    (prompt,) = (one["task_prompt"] for one in told["tasks"])
+    assert prompt == "Sound it. Start in the north-west corner. Log the depth."
+
+
 def test_a_filter_that_is_there_is_kept_when_it_is_as_strict() -> None:
     moving = transit(100, 50)
     strict = {"name": "ObstacleAvoidance", "parameters": {"min_distance": 15}}

@@ -298,6 +298,7 @@ def _is_kept(clause: Clause, case: Case) -> bool:
     away = case.words["away"].search(clause.text)
     if not said and away:
         limited = [value for value in plan.limits if is_place(value)]
+        limited += itertools.chain.from_iterable(plan.polygons)
         if not inside:
             # "Keep clear of it" names nothing: some text must keep the vehicle away.
             thing = case.words["boundary"].sub("", clause.text[away.end() :])

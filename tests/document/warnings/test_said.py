@@ -61,6 +61,7 @@ CORNERS = "run down to x one eighty y forty"
 FOUR_SIDES = "Along the north side, then the east side, then the west side, 50 m, 5 m off."
 BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
 PILES = "To 9,0. Two piles on the way, 60,5 and 120,-5, give both of them 25 m."
+LOST = "limit-lost value-lost"
 KEPT = "The vehicle stays at least 25 m from [60, 5]."
 SITES = "Out there: buoy [60, 20], pontoon [20, 60], barge [90, 90]. Hold at the buoy, then the pontoon."
 REEF = "Circle it at twenty metres at sixty sixty, never nearer than forty metres to the reef, via 9,9."
@@ -97,6 +98,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         (AREA, [to(100, 50), to(0, 0)], (), "limit-lost"),
         (AREA, [to(100, 50), to(0, 0)], (FENCE,), None),
         (f"{BOX} and never leave it. Go to 9,9.", [to(9, 9)], (FENCE,), None),
+        ("Go to 9,9, keep out of the box 0,0 to 200,200.", [to(9, 9)], (FENCE,), None),
+        ("Go to 9,9, keep out of the box 0,0 to 90,200.", [to(9, 9)], (FENCE,), LOST),
         (AREA, [to(100, 50), to(0, 200), to(200, 0), to(0, 0)], (), "limit-lost"),
         (PLATFORM, [to(100, 0)], (), "limit-lost"),
         ("Go to 9,9; do not come within 15 of the mark.", [to(9, 9)], (), "limit-lost"),
