@@ -22,6 +22,7 @@ from planner_ft.decoding.sequence import Sampling
 from planner_ft.prompts import PROMPT_VERSION, end_of_turn_ids, user_text
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import sha256_text, sha256_tree
+from planner_ft.support.resources import cores
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 TOKENIZER_FILES = (
@@ -30,6 +31,8 @@ TOKENIZER_FILES = (
 )
 SERVER_SEED = 0  # sent to servers with temperature 0, for those that break ties by chance
 SERVED = "base, lora (a fine-tuned model, told no vocabulary), base+schema and lora+schema"
+WORTH_HELP = 150
+"""Answers from which a second process repays the ten seconds of its start."""
 Parts = dict[str, Any]
 
 
@@ -124,6 +127,17 @@ def make_plan(settings: BenchSettings) -> Plan:
             jobs += [_job(one, how, *known) for how in configurations]
     every = tuple(one for job in jobs for one in job.repeated(settings))
     return Plan(settings, data, vocabulary, device, every)
+
+
+def is_helped(settings: BenchSettings) -> bool:
+    """Whether a second process should make half of the answers: small models have one CPU thread,
+    and these answers are enough to repay the process's start. Raises PlannerError as `make_plan`.
+    """
+    if settings.endpoint or cores() == 1:
+        return False
+    plan = make_plan(settings)
+    small = plan.device == "cpu" and all(job.threads for job in plan.jobs)
+    return small and len(plan.data.samples) * len(plan.jobs) >= WORTH_HELP
 
 
 def _candidates(settings: BenchSettings, vocabulary: Vocabulary) -> list[Candidate]:

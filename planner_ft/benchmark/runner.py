@@ -57,7 +57,10 @@ class _Run:
         """Make this process's share of a candidate's answers; time queries; load it if need be."""
         every, log = [sample.id for sample in self.plan.data.samples], self.latencies
         timed = every[: self.plan.settings.latency_samples] if log else []
-        missing = [self.ranks.share(self.predictions.missing(job.key, every)) for job in jobs]
+        known = [self.predictions.missing(job.key, every) for job in jobs]
+        # Neighbours, so that batches are as large as those of one process.
+        own = self.ranks.stretch([(at, name) for at, names in enumerate(known) for name in names])
+        missing = [[name for of, name in own if of == at] for at in range(len(jobs))]
         # The repeats of a system take the time of the first.
         first = [job for job in jobs if job.sampling is None or job.sampling.repeat == 1]
         untimed = [log.missing(job.key, timed) if log else [] for job in first]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,7 +22,7 @@ from planner_ft.support.alone import alone
 from planner_ft.support.errors import IncompleteError, PlannerError
 from planner_ft.support.files import indented_json, write_json, write_text
 from planner_ft.support.geodesy import Origin
-from planner_ft.support.ranks import join_ranks, started_with_others
+from planner_ft.support.ranks import helped, join_ranks, started_with_others
 from planner_ft.support.terminal import show, terminal
 from planner_ft.vocabulary import load_vocabulary
 from planner_ft.vocabulary.plans import check_level
@@ -170,6 +171,7 @@ def names(text: str | None) -> list[str]:
 
 def _run(settings: BenchSettings, *, report: bool) -> None:
     from planner_ft.benchmark.folder import PREDICTIONS
+    from planner_ft.benchmark.plan import is_helped
     from planner_ft.benchmark.runner import help_bench, run_bench
     from planner_ft.report.write import report_beside
 
@@ -177,7 +179,8 @@ def _run(settings: BenchSettings, *, report: bool) -> None:
     if not ranks.leads:
         help_bench(settings, ranks)
         return
-    with working(settings.folder, PREDICTIONS) as progress:
+    shares = helped() if ranks.world == 1 and is_helped(settings) else nullcontext(ranks)
+    with working(settings.folder, PREDICTIONS) as progress, shares as ranks:
         results = run_bench(settings, progress, ranks)
         _show(results, settings.folder)
         if report:

@@ -8,22 +8,33 @@ import csv
 import json
 import os
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from planner_ft.benchmark.folder import RecordLog
+from planner_ft.benchmark.plan import WORTH_HELP, is_helped
+from planner_ft.benchmark.settings import BenchSettings
 from planner_ft.benchmark.units import command
 from planner_ft.support.ranks import Ranks
+from planner_ft.support.resources import cores
 
 NAME = "Llama-3.2-1B-Instruct"
 
 
-def test_every_item_is_in_one_share() -> None:
+@pytest.mark.parametrize("way", ["share", "stretch"])
+def test_every_item_is_in_one_share(way: str) -> None:
     items = list(range(7))
-    shares = [Ranks(rank, 3).share(items) for rank in range(3)]
+    shares = [getattr(Ranks(rank, 3), way)(items) for rank in range(3)]
     assert sorted(item for share in shares for item in share) == items
     assert max(map(len, shares)) - min(map(len, shares)) <= 1
+
+
+@pytest.mark.skipif(cores() == 1, reason="there is no second core")
+def test_many_answers_of_a_small_model_are_worth_a_second_process() -> None:
+    every = BenchSettings("mission", ("embedded",), ("base",), Path("data/mission/challenge.jsonl"))
+    assert is_helped(every) and not is_helped(replace(every, limit=WORTH_HELP - 1))
 
 
 def test_processes_add_to_one_log_and_read_what_the_others_wrote(tmp_path: Path) -> None:
