@@ -4,11 +4,13 @@ import itertools
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
+from planner_ft.document.structures import ROUND
 from planner_ft.document.track import place_of
-from planner_ft.document.warnings.case import Case, Warning, quoted, spot, warning
-from planner_ft.facts import near
+from planner_ft.document.warnings.case import FULL, Case, Warning, quoted, spot, warning
+from planner_ft.facts import is_number, near
 from planner_ft.facts.places import rows_of
 
 SENTENCE = re.compile(r"^|[.!?;]\s")
@@ -80,6 +82,21 @@ def to_and_fro(case: Case) -> Iterator[Warning]:
         yield warning("repeat-lost", "to_and_fro", about=words.casefold(), words=words)
 
 
+def _is_done_again(count: float, found: Mapping[int, tuple[float, int]], case: Case) -> bool:
+    """Whether several tasks go round one place so often, and the command says so once: "twice,
+    first at 20 m, then at 10 m" is a round each.
+    """
+    turned = list[tuple[float, ...] | None]()
+    for task in case.tasks:
+        known = case.vocabulary.task[task["title"]]
+        angles = [one.name for one in known.parameters if one.unit == "deg"]
+        values = [task["parameters"].get(name) for name in angles if known.pattern in ROUND]
+        if any(is_number(one) and near(one, FULL * count) for one in values):
+            turned.append(spot(at) if (at := place_of(task, case.vocabulary)) else None)
+    said = sum(number == count for number, _start in found.values())
+    return said == 1 and len(set(turned)) < len(turned)
+
+
 def repeats(case: Case) -> Iterator[Warning]:
     """Counts of rounds or times that nothing in the plan is done so often."""
     text, found = case.text, dict[int, tuple[float, int]]()
@@ -110,6 +127,8 @@ def repeats(case: Case) -> Iterator[Warning]:
                 and sentence <= row[0].start < (ahead.start() if ahead else len(text))
                 and (not places or set(row) & set(places))
             ]
+            about: Any = {"about": text[start:end].casefold(), "words": text[start:end]}
             if not case.plan.repeats(count, places, near_by[-1] if near_by else ()):
-                words = text[start:end]
-                yield warning("repeat-lost", "count", about=words.casefold(), words=words)
+                yield warning("repeat-lost", "count", **about)
+            elif not case.words["each"].search(text) and _is_done_again(count, found, case):
+                yield warning("repeat-lost", "again", **about)
