@@ -44,7 +44,9 @@ class Judge:
         self.limits = Limits(ends, int(ROOM * longest))
 
     def answers(self, *, adapter: bool) -> list[Answer]:
-        """The scores of the answers, which all processes share; those of the base are prompted as a benchmark prompts it."""
+        """The scores of the answers, which all processes share; those of the base are prompted as a
+        benchmark prompts it.
+        """
         model, level, vocabulary = self.run.model, self.request.level, self.request.vocabulary
         trained = self.request.settings.vocabulary_in_prompt
         told = trained if adapter else not self.request.candidate.knows(vocabulary)
