@@ -172,7 +172,7 @@ def helped() -> Iterator[Ranks]:
             if helper.poll() is None:
                 raise
             ended = f"the process that helped this one ended (status {helper.returncode})"
-            raise PlannerError(f"{ended}; go on with --resume --threads 1") from error
+            raise PlannerError(f"{ended}; go on with --resume") from error
         finally:
             _leave()
     finally:
