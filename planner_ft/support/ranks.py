@@ -169,7 +169,7 @@ def helped() -> Iterator[Ranks]:
         try:
             yield _meet(store, 0)
         except RuntimeError as error:
-            if helper.poll() is None:
+            if not helper.poll():
                 raise
             ended = f"the process that helped this one ended (status {helper.returncode})"
             raise PlannerError(f"{ended}; go on with --resume") from error

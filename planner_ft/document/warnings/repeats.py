@@ -83,16 +83,17 @@ def to_and_fro(case: Case) -> Iterator[Warning]:
 
 
 def _is_done_again(count: float, found: Mapping[int, tuple[float, int]], case: Case) -> bool:
-    """Whether several tasks go round one place so often, and the command says so once: "twice,
-    first at 20 m, then at 10 m" is a round each.
+    """Whether several tasks go round one known place so often, and the command says so once:
+    "twice, first at 20 m, then at 10 m" is a round each.
     """
-    turned = list[tuple[float, ...] | None]()
+    turned = list[tuple[float, ...]]()
     for task in case.tasks:
         known = case.vocabulary.task[task["title"]]
         angles = [one.name for one in known.parameters if one.unit == "deg"]
         values = [task["parameters"].get(name) for name in angles if known.pattern in ROUND]
-        if any(is_number(one) and near(one, FULL * count) for one in values):
-            turned.append(spot(at) if (at := place_of(task, case.vocabulary)) else None)
+        often = any(is_number(one) and near(one, FULL * count) for one in values)
+        if often and (at := place_of(task, case.vocabulary)):
+            turned.append(spot(at))
     said = sum(number == count for number, _start in found.values())
     return said == 1 and len(set(turned)) < len(turned)
 

@@ -20,8 +20,8 @@ def hold(seconds: float) -> dict[str, Any]:
     return task("KeepStation", {"duration": seconds}, [step("StationKeep", {"time": seconds})])
 
 
-def orbit(arc: float) -> dict[str, Any]:
-    return task("PerformOrbit", {"center": [60, 60], "radius": 20, "arc": arc}, None)
+def orbit(arc: float, at: tuple[float, float] = (60, 60)) -> dict[str, Any]:
+    return task("PerformOrbit", {"center": [*at], "radius": 20, "arc": arc}, None)
 
 
 def grid(width: float, length: float) -> dict[str, Any]:
@@ -61,7 +61,7 @@ CORNERS = "run down to x one eighty y forty"
 FOUR_SIDES = "Along the north side, then the east side, then the west side, 50 m, 5 m off."
 BY_WORDS = "Map thirty wide by thirty long at 9,9, 10 m lines."
 PILES = "To 9,0. Two piles on the way, 60,5 and 120,-5, give both of them 25 m."
-LOST = "limit-lost value-lost"
+LOST, OPEN = "limit-lost value-lost", (-99, -99)
 KEPT = "The vehicle stays at least 25 m from [60, 5]."
 SITES = "Out there: buoy [60, 20], pontoon [20, 60], barge [90, 90]. Hold at the buoy, then the pontoon."
 REEF = "Circle it at twenty metres at sixty sixty, never nearer than forty metres to the reef, via 9,9."
@@ -138,6 +138,7 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go round the mast at 60,60 twice at 20 m.", [orbit(720), orbit(720)], (), "repeat-lost"),
         ("Go round the mast at 60,60 twice at 20 m.", [orbit(360), orbit(360)], (), None),
         ("Go round the mast at 60,60 twice at 20 m each.", [orbit(720), orbit(720)], (), None),
+        ("Find mast and can, round both twice at 20 m.", [orbit(720, OPEN)] * 2, (), None),
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(1080)], (), None),
         ("Circle the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
         ("Circle the mast at 60,60 at 20 m. Do not circle it twice.", [orbit(360)], (), None),
