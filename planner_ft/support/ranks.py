@@ -25,6 +25,8 @@ HELPED = "PLANNER_FT_HELPED"
 """A variable with the port at which a helper meets the process that it helps."""
 SOON = 120.0
 """Seconds that a helper is waited for."""
+ENDING = 5.0
+"""Seconds in which a process that is ending ends."""
 LONGEST_WAIT = timedelta(days=14)
 """A process may wait for the others as long as these answer; one that fails ends them all through
 its launcher.
@@ -169,7 +171,10 @@ def helped() -> Iterator[Ranks]:
         try:
             yield _meet(store, 0)
         except RuntimeError as error:
-            if not helper.poll():
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                # Its connections close before it has ended.
+                helper.wait(ENDING)
+            if not helper.returncode:
                 raise
             ended = f"the process that helped this one ended (status {helper.returncode})"
             raise PlannerError(f"{ended}; go on with --resume") from error

@@ -66,7 +66,7 @@ def test_what_is_worth_a_helper(ask, monkeypatch):
 
 
 MEETS = """
-import os, sys
+import os, sys, threading
 import psutil
 from planner_ft.support import ranks
 from planner_ft.support.errors import PlannerError
@@ -74,8 +74,11 @@ ranks.SOON = float(sys.argv.pop())
 try:
     with ranks.helped() as found:
         print(found)
+        late = float(os.environ.get("LATE", "0"))
         for child in psutil.Process().children():
-            child.kill()
+            threading.Timer(late, child.kill).start()
+        if late:
+            raise RuntimeError("the connection is closed")
         found.wait()
 except PlannerError as error:
     print(error)
@@ -91,8 +94,11 @@ def test_a_helper_that_does_not_come_is_not_waited_for(word, seconds):
 
 
 @pytest.mark.usefixtures("forked")
-def test_a_helper_that_ends_is_told_of_with_the_way_out():
+@pytest.mark.parametrize("late", ["0", "0.5"])
+def test_a_helper_that_ends_is_told_of_with_the_way_out(late, monkeypatch):
+    monkeypatch.setenv("LATE", late)  # A connection closes before its process has ended.
     done = started(MEETS, "train", "--level", "mission", "60")
+    assert done.stdout.count("\n") == 3, done.stderr
     found, told, left = done.stdout.splitlines()
     assert found == repr(ranks.Ranks(0, 2, divided=True))
     assert told.startswith("the process that helped this one ended (status -9); go on with")
