@@ -23,6 +23,7 @@ $(INSTALLED): pyproject.toml $(wildcard $(CONSTRAINTS))
 	@# torch first and by its pin: an open range would take the newest build, whatever its size.
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) torch
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c $(CONSTRAINTS) -e ".[dev]"
+	$(BIN)/python -m compileall -q planner_ft
 	touch $@
 
 # The drone is a vehicle that the embedded base was not made for; its adapter is trained here. The surface vehicle's planner ships.
