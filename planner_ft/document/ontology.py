@@ -13,6 +13,7 @@ from planner_ft.document.language import Language, language, pattern, read_claus
 from planner_ft.facts import Position, Span
 from planner_ft.facts.geometry import rectangle
 from planner_ft.facts.places import read_positions, rows_of, written_positions
+from planner_ft.facts.words import SMALL
 from planner_ft.vocabulary import Vocabulary
 from planner_ft.vocabulary.schema import ELEMENTS
 
@@ -31,7 +32,8 @@ _PLACED = re.compile(
 )
 _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:(?:which|that|she|he|it) )?(?:is|are|was|stands?|standing|lies?|lying|sits?"
-    r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|(?:she|he|it)['’]s)\s+"
+    r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|aground|adrift|awash"
+    r"|(?:she|he|it)['’]s)\s+"
     r"(?:\w+\s+){0,2}?)?(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?"
     r"(?:(?:at|near|around|in|on|by|@)\s*|in the \w+,\s+)"
     r"|(?=[\[(\d−–-]))[\[(]?\s*",
@@ -55,7 +57,11 @@ _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNOR
 """What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
 # A size behind a noun phrase ("of 12 m"), and a letter or number behind a noun ("pile A at").
 _SIZE = re.compile(r"\s+of\s+\d[\d.,]*\s?[a-z]+\b")
-_MARK = re.compile(r"\s+(?:[A-Z]{1,3}-?\d{0,3}|\d{1,3})(?=\s+at\b|\s*[\[(])")
+_MARK = re.compile(
+    r"(?:\s+(?i:number|no\.?))?"
+    rf"(?:\s+(?:[A-Za-z]|[A-Z]{{2,3}}|[A-Za-z]{{0,3}}-?\d{{1,3}}[A-Za-z]?|(?i:{'|'.join(SMALL)}))){{1,2}}"
+    r"(?=\s+at\b|\s*[\[(])"
+)
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
 
 

@@ -224,6 +224,11 @@ def test_a_thing_with_a_code_stands_at_its_coordinates() -> None:
         "Pile P12 (75, -25): panorama.",
         "Go to pile 12 [75, -25].",
         "Go to pile A at 75, -25.",
+        "Go to pile c7 at 75, -25.",
+        "go to pile c seven at seventy five comma minus twenty five",
+        "Go to beacon number 4 at 75, -25.",
+        "Rock awash at 75, -25. Waypoint 20, 20.",
+        "Wreck at 75, -25. Waypoint 20, 20.",
     ):
         ((_words, place),) = named_places(told, USV)
         assert (place.x, place.y) == (75, -25)
