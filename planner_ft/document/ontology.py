@@ -32,7 +32,8 @@ _PLACED = re.compile(
 )
 _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:(?:which|that|she|he|it) )?(?:is|are|was|stands?|standing|lies?|lying|sits?"
-    r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|aground|adrift|awash"
+    r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|at anchor|aground|adrift"
+    r"|awash"
     r"|(?:she|he|it)['’]s)\s+"
     r"(?:\w+\s+){0,2}?)?(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?"
     r"(?:(?:at|near|around|in|on|by|@)\s*|in the \w+,\s+)"

@@ -22,6 +22,7 @@ MEASURED = [
     Path("eval/challenge/things.jsonl"),
     Path("eval/challenge/turns.jsonl"),
     Path("eval/challenge/spoken.jsonl"),
+    Path("eval/challenge/sensors.jsonl"),
     *sorted(Path("eval/challenge").glob("mission*.jsonl")),
     *sorted(Path("eval/field").rglob("*.jsonl")),
 ]
@@ -69,9 +70,8 @@ def test_every_challenge_set_is_known_as_a_test_of_its_level(tmp_path: Path) -> 
         level: {one.name for one in known_tests(level, tmp_path, load_vocabulary("usv"))}
         for level in ("mission", "task")
     }
-    assert {"operators.jsonl", "things.jsonl", "spoken.jsonl", "mission_third.jsonl"} <= known[
-        "mission"
-    ]
+    named = {"operators.jsonl", "things.jsonl", "spoken.jsonl", "sensors.jsonl"}
+    assert named | {"mission_third.jsonl"} <= known["mission"]
     assert {"task.jsonl", "task_unseen.jsonl"} <= known["task"]
     assert not [one for one in known["mission"] if one.startswith("task")]
     assert not known["task"] & {"operators.jsonl", "mission.jsonl"}

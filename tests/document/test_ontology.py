@@ -228,7 +228,7 @@ def test_a_thing_with_a_code_stands_at_its_coordinates() -> None:
         "go to pile c seven at seventy five comma minus twenty five",
         "Go to beacon number 4 at 75, -25.",
         "Rock awash at 75, -25. Waypoint 20, 20.",
-        "Wreck at 75, -25. Waypoint 20, 20.",
+        "There is a coaster at anchor at 75, -25.",
     ):
         ((_words, place),) = named_places(told, USV)
         assert (place.x, place.y) == (75, -25)
@@ -239,6 +239,7 @@ def test_where_something_begins_is_no_thing() -> None:
         "Cut the propulsion at [4, 5].",
         "Drift a quarter of an hour starting at [0, -30].",
         "Log it beginning at [4, 5].",
+        "Hold at the boarding ground at [4, 5].",
     ):
         assert not named_places(told, USV)
 
