@@ -33,8 +33,7 @@ _PLACED = re.compile(
 _BESIDE = re.compile(
     r"\s*(?:,?\s*(?:(?:(?:which|that|she|he|it) )?(?:is|are|was|stands?|standing|lies?|lying|sits?"
     r"|floats?|hangs?|rests?|right|last seen|located|anchored|moored|at anchor|aground|adrift"
-    r"|awash"
-    r"|(?:she|he|it)['’]s)\s+"
+    r"|awash|(?:she|he|it)['’]s)\s+"
     r"(?:\w+\s+){0,2}?)?(?:in the \w+\s+|in between\s+)?(?:,?\s*namely\s+)?"
     r"(?:(?:at|near|around|in|on|by|@)\s*|in the \w+,\s+)"
     r"|(?=[\[(\d−–-]))[\[(]?\s*",
@@ -58,9 +57,9 @@ _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNOR
 """What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
 # A size behind a noun phrase ("of 12 m"), and a letter or number behind a noun ("pile A at").
 _SIZE = re.compile(r"\s+of\s+\d[\d.,]*\s?[a-z]+\b")
+_CODE = "|".join((r"[A-Za-z]", r"[A-Z]{2,3}", r"[A-Za-z]{0,3}-?\d{1,3}[A-Za-z]?"))
 _MARK = re.compile(
-    r"(?:\s+(?i:number|no\.?))?"
-    rf"(?:\s+(?:[A-Za-z]|[A-Z]{{2,3}}|[A-Za-z]{{0,3}}-?\d{{1,3}}[A-Za-z]?|(?i:{'|'.join(SMALL)}))){{1,2}}"
+    rf"(?:\s+(?i:number|no\.?))?(?:\s+(?:{_CODE}|(?i:{'|'.join(SMALL)}))){{1,2}}"
     r"(?=\s+at\b|\s*[\[(])"
 )
 _NAME = re.compile(r"\s+((?:[A-Z][\w-]*|\d+)(?:\s+(?:[A-Z][\w-]*|\d+))?)(?!\w)")
