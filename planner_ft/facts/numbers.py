@@ -326,17 +326,10 @@ def turns_of(text: str, numbers: Iterable[Number]) -> Iterator[Number]:
             if word == "way" and row.word(index - 2) == "all" and row.word(index + 1) in _ROUND:
                 turn, start, end = 1.0, row.tokens[index - 2].start, row.tokens[index + 1].end
             if turn:
-                yield from _rounds(Number(turn, WRITTEN, start, end, "deg", turn))
+                yield Number(360 * turn, WRITTEN, start, end, "deg", turn)
     for number in (one for one in numbers if one.unit is None):
         laps = _LAPS.match(text, number.end)
         part = number.value in (0.75, 1.5) or abs(number.value - 2 / 3) < 1e-9
         if part or laps or _PART.match(text, number.end):
             end = laps.end() if laps else number.end
-            yield from _rounds(replace(number, rank=WRITTEN, end=end, unit="deg"))
-
-
-def _rounds(number: Number) -> Iterator[Number]:
-    """The angles of a number of rounds: of all, and of each ("twice, first at 25 m ...")."""
-    yield replace(number, value=360 * number.value)
-    if number.value > 1 and number.value.is_integer():
-        yield replace(number, value=360.0)
+            yield Number(360 * number.value, WRITTEN, number.start, end, "deg", number.said)
