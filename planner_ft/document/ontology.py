@@ -55,7 +55,7 @@ _THERE = re.compile(r"\bthere(?:['’]s|\s+(?:is|are|was|were))\s+", re.IGNORECA
 _ALONG = re.compile(r"\balong\s(?:[\w-]+\s){0,3}$", re.IGNORECASE)
 _ENDS = re.compile(r"[\])]?\s*(?:and|to|until|through to)\s*[\[(]?\s*", re.IGNORECASE)
 """What stands before the ends of a thing, and between them: "a net from [0, 35] to [9, 35]"."""
-# A size behind a noun phrase ("of 12 m"), and a code behind a noun ("pile A at", "pile c seven at").
+# A size behind a noun phrase ("of 12 m"), and a code behind a noun ("pile A", "pile c seven").
 _SIZE = re.compile(r"\s+of\s+\d[\d.,]*\s?[a-z]+\b")
 _CODE = r"[A-Za-z]|[A-Z]{2,3}|[A-Za-z]{0,3}-?\d{1,3}[A-Za-z]?"
 _MARK = re.compile(

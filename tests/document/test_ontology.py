@@ -227,6 +227,7 @@ def test_a_thing_with_a_code_stands_at_its_coordinates() -> None:
         "Go to pile c7 at 75, -25.",
         "go to pile c seven at seventy five comma minus twenty five",
         "Go to beacon number 4 at 75, -25.",
+        "Film the ladder on pier leg B at 75, -25.",
         "Rock awash at 75, -25. Waypoint 20, 20.",
         "There is a coaster at anchor at 75, -25.",
     ):
