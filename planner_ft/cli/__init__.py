@@ -1,5 +1,6 @@
 """The command line: `plannerft`. Commands parse, call one function of the library and print."""
 
+import gc
 import io
 import itertools
 import os
@@ -46,3 +47,5 @@ def main() -> None:
         problem = f"cannot be used ({error.strerror or error})"
         show(f"plannerft: {where}: {problem}; give another path or free some space", error=True)
         sys.exit(2)
+    finally:
+        gc.freeze()  # The end would look for cycles in all of torch, for half a second.

@@ -16,17 +16,20 @@ from planner_ft.cli.options import Options, command, interruptible, typed
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import indented_json
 from planner_ft.support.geodesy import parse_origin
+from planner_ft.support.resources import open_torch, uncollected
 from planner_ft.support.terminal import Report, show, terminal
 from planner_ft.vocabulary import load_vocabulary
 
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument
+    from planner_ft.planning.planner import Planner
 
 PATIENCE = 3.0
 """Seconds without an answer before progress is shown: a short wait needs none."""
 
 
 @command
+@uncollected()
 def plan(o: Options) -> None:
     """Plan a command with both agents."""
     from planner_ft.document import write_document
@@ -35,6 +38,7 @@ def plan(o: Options) -> None:
 
     if o.out is not None:
         new_file(o.out, overwrite=o.overwrite)
+    open_torch()
     document = _plan(o)
     show(indented_json(document) if o.json else plan_tree(document), end="" if o.json else "\n")
     if o.out is not None:
@@ -66,6 +70,8 @@ def _plan(o: Options) -> PlanDocument:
         patient(report) as progress,
         Planner(o.into(PlanSettings), progress) as planner,
     ):
+        loading = threading.Thread(target=_load, args=(planner,), daemon=True)
+        loading.start()
         profile = load_vehicle(o.vehicle, planner.vocabulary)
         profile = replace(profile, area=corners) if corners else profile
         if doubt := other_language(text):
@@ -74,8 +80,15 @@ def _plan(o: Options) -> PlanDocument:
             show(f"the command does not say: {question}", error=True)
         for doubt in untrained(planner.agents.agents, planner.vocabulary):
             show(doubt, error=True)
+        loading.join()
         planned = planner.plan(text, locations, origin=origin, chart=chart)
         return build(planned, planner.vocabulary, profile)
+
+
+def _load(planner: Planner) -> None:
+    """Load the first agent beside what needs no model; what stops it is raised by planning."""
+    with contextlib.suppress(Exception):
+        planner.agents.load("mission")
 
 
 @contextlib.contextmanager

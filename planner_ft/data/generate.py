@@ -1,6 +1,5 @@
 """Making the data sets: `generate` writes both levels with card, leakage report and manifest."""
 
-import gc
 import itertools
 import shlex
 import time
@@ -18,6 +17,7 @@ from planner_ft.data.validation import canonical_record
 from planner_ft.support import files
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.manifest import build_manifest
+from planner_ft.support.resources import uncollected
 from planner_ft.support.terminal import Report, silent
 from planner_ft.vocabulary import Vocabulary, load_vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
@@ -184,8 +184,7 @@ def _sampled(
     synthetic = name == SYNTHETIC
     asked: dict[Any, int | None] = settings.counts("task")
     asked = {"train": settings.synthetic} if synthetic else asked
-    gc.disable()  # Samples have no cycles, and collecting walks thousands of parsed templates.
-    try:
+    with uncollected():  # Samples have no cycles, and there are thousands of parsed templates.
         for split, number in asked.items():
             count = number or TASKS[split]
             records = splits[split] = []
@@ -204,6 +203,4 @@ def _sampled(
                     progress(f"{name}: {split}", len(records), count)
             if split == "train" and not synthetic:
                 train = {form for record in records for form in forms(record["prompt"])}
-    finally:
-        gc.enable()
     return splits

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
+import gc
+import importlib.util
 import os
 import resource
 import signal
 import sys
+import threading
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,11 +58,39 @@ def clock(seconds: float) -> str:
     return f"{hours}:{minutes:02d}:{whole % 60:02d}" if hours else f"{minutes}:{whole % 60:02d}"
 
 
+@contextlib.contextmanager
+def uncollected() -> Iterator[None]:
+    """In the block, Python does not look for cycles: walking objects that all live on costs time
+    alone.
+    """
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+def open_torch() -> None:
+    """Have the system open torch's library while other modules are imported, which needs none of
+    Python's lock; `import torch` opens it where this cannot.
+    """
+    spec = importlib.util.find_spec("torch")
+    for folder in spec.submodule_search_locations or () if spec else ():
+        path = Path(folder, "lib", "libtorch_cpu.so")
+        if path.is_file():
+            threading.Thread(target=_open, args=(path,), daemon=True).start()
+
+
+def _open(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        ctypes.CDLL(str(path))
+
+
 def end_with_parent() -> None:
     """Have the system kill this process with the one that started it; on Linux alone."""
     if sys.platform == "linux":
-        import ctypes
-
         ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
