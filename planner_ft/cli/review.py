@@ -22,7 +22,6 @@ from planner_ft.vocabulary import load_vocabulary
 
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument
-    from planner_ft.planning.planner import Planner
 
 PATIENCE = 3.0
 """Seconds without an answer before progress is shown: a short wait needs none."""
@@ -50,6 +49,7 @@ def plan(o: Options) -> None:
 
 def _plan(o: Options) -> PlanDocument:
     """Check the options, then plan."""
+    from concurrent.futures import ThreadPoolExecutor
     from dataclasses import replace
 
     from planner_ft.document import build
@@ -70,25 +70,23 @@ def _plan(o: Options) -> PlanDocument:
         patient(report) as progress,
         Planner(o.into(PlanSettings), progress) as planner,
     ):
-        loading = threading.Thread(target=_load, args=(planner,), daemon=True)
-        loading.start()
-        profile = load_vehicle(o.vehicle, planner.vocabulary)
-        profile = replace(profile, area=corners) if corners else profile
-        if doubt := other_language(text):
-            show(doubt, error=True)
-        for question in check(text, planner.vocabulary)["questions"]:
-            show(f"the command does not say: {question}", error=True)
-        for doubt in untrained(planner.agents.agents, planner.vocabulary):
-            show(doubt, error=True)
-        loading.join()
+        # Imports torch, whose library is open by now.
+        from planner_ft.decoding.engine import is_small
+
+        agents = planner.agents
+        with ThreadPoolExecutor(1) as beside:
+            if is_small(agents.agents["mission"].candidate, agents.device.type):
+                beside.submit(agents.load, "mission")  # Planning raises what stops it.
+            profile = load_vehicle(o.vehicle, planner.vocabulary)
+            profile = replace(profile, area=corners) if corners else profile
+            if doubt := other_language(text):
+                show(doubt, error=True)
+            for question in check(text, planner.vocabulary)["questions"]:
+                show(f"the command does not say: {question}", error=True)
+            for doubt in untrained(agents.agents, planner.vocabulary):
+                show(doubt, error=True)
         planned = planner.plan(text, locations, origin=origin, chart=chart)
         return build(planned, planner.vocabulary, profile)
-
-
-def _load(planner: Planner) -> None:
-    """Load the first agent beside what needs no model; what stops it is raised by planning."""
-    with contextlib.suppress(Exception):
-        planner.agents.load("mission")
 
 
 @contextlib.contextmanager

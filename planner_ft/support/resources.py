@@ -80,7 +80,7 @@ def open_torch() -> None:
     for folder in spec.submodule_search_locations or () if spec else ():
         path = Path(folder, "lib", "libtorch_cpu.so")
         if path.is_file():
-            threading.Thread(target=_open, args=(path,), daemon=True).start()
+            threading.Thread(target=_open, args=(path,)).start()
 
 
 def _open(path: Path) -> None:
