@@ -25,7 +25,7 @@ LINE = "line"
 ROUND, OVER = ("orbit", "square"), ("lawnmower", LINE)
 """Patterns of tasks that go round their place, and of those that go over it."""
 FACING = ("sweep", "pass")
-"""Patterns of tasks that look at the structure that the vehicle has gone to."""
+"""Patterns of tasks that look at a structure from where the vehicle has gone to."""
 FOLLOWING = "follow"
 """The pattern of a task that goes up to its place and no closer than its filters let it."""
 SAME = 0.6  # metres within which a waypoint is a structure itself
@@ -76,23 +76,21 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             at = point_of(values["position"])
             kept[at] = max(kept.get(at, 0.0), values["distance"])
             named[at] = values.get("object", "")
-    last, excluded, stated = vocabulary.home, {vocabulary.home}, dict[Point, list[float]]()
+    excluded, stated = {vocabulary.home}, dict[Point, list[float]]()
     told = " ".join([document["command"], *(task["task_prompt"] for task in document["tasks"])])
     spoken = named_places(frame_of(document).spoken, vocabulary)
     chart = document.get("structures", {}).items()
     charted = {point_of(at) for name, at in chart if name.casefold() not in told.casefold()}
     for task in document["tasks"]:
         known, place = vocabulary.task.get(task["title"]), place_of(task, vocabulary)
-        if known is not None and known.pattern in FACING and last != vocabulary.home:
-            named.setdefault(last, "")
-        last = place or last
+        beside = [
+            (words, (at.x, at.y)) for words, at in named_places(task["task_prompt"], vocabulary)
+        ]
+        if known is not None and known.pattern in FACING:
+            named |= {at: words for words, at in beside if at not in named}
         if known is None or place is None:
             continue
-        things = [
-            words
-            for words, beside in named_places(task["task_prompt"], vocabulary)
-            if math.dist((beside.x, beside.y), place) < SAME
-        ]
+        things = [words for words, at in beside if math.dist(at, place) < SAME]
         over = known.pattern in OVER and place not in charted
         said = [words for words, at in spoken if math.dist((at.x, at.y), place) < SAME]
         upright = known.pattern != LINE and any(stands(one, vocabulary) for one in things + said)

@@ -473,11 +473,14 @@ def test_the_standoff_is_the_limits_the_tasks_or_the_vehicles_and_never_below_th
     assert structures(plan, USV)[0].standoff == 10
 
 
-def test_what_the_vehicle_looks_at_from_where_it_went_is_a_structure() -> None:
+def test_a_thing_that_a_task_looks_at_is_a_structure_and_the_place_of_the_vehicle_is_none() -> None:
     sweep = task("BoatLandingClearanceSweep", {}, [])
-    assert standoffs(transit(70, 0), sweep) == {"[70, 0]": 10}
-    assert standoffs(transit(70, 0), task("KeepStation", {}, [])) == {}
-    assert standoffs(transit(0, 0), sweep) == {}
+    assert standoffs(transit(70, 0), sweep) == {}
+    assert standoffs(transit(70, 0, "Go to the boat landing at [70, 0]."), sweep) == {
+        "the boat landing": 10
+    }
+    far = task("BoatLandingClearanceSweep", {}, [], "Scan the boat landing at [90, 0].")
+    assert standoffs(transit(70, 0), far) == {"the boat landing": 10}
     home = task("PerformOrbit", {"center": [0, 0], "radius": 5}, [])
     assert standoffs(home) == {}
     placed = {**document([transit(70, 0)]), "located": {"wreck": [8, 8], "middle": [9, 9]}}
