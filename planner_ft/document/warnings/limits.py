@@ -13,6 +13,7 @@ from planner_ft.document.language import Clause, ends_with
 from planner_ft.document.structures import (
     MOVING,
     Structure,
+    berth,
     close_legs,
     closed_area,
     structures,
@@ -184,7 +185,7 @@ def _how(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
     if kind in ("fence", "keep_out_area"):
         return _area(kind, values["polygon"], legs)
     if kind == "keep_out" and "position" in values:
-        return _too_close(values, legs)
+        return _too_close(values, legs) or _docks(values, held, case)
     if kind == "distance":
         home = case.vocabulary.home
         away = ((math.dist(point, home), leg.task) for leg in legs for point in leg.points)
@@ -225,6 +226,16 @@ def _too_close(values: Entry, legs: list[Leg]) -> Found:
     nearest, task = min(found, default=(math.inf, ""))
     slack = max(TOLERANCE, 0.005 * values["distance"])
     return (task, f"comes within {nearest:.0f} m") if nearest < values["distance"] - slack else None
+
+
+def _docks(values: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
+    """A berth that the limit keeps the vehicle from: its way ends short of it."""
+    for task in tasks:
+        place = berth(task, case.vocabulary)
+        metres = math.dist(place, values["position"]) if place else math.inf
+        if metres < values["distance"] - TOLERANCE:
+            return task["id"], f"is to dock {metres:.0f} m from there"
+    return None
 
 
 def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:

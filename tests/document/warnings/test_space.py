@@ -81,6 +81,15 @@ def test_a_limit_without_a_place_is_broken_where_what_it_names_may_be(
     assert any("[50, 5], where" in one for one in told(plan, "limit-broken")) is near
 
 
+@pytest.mark.parametrize(("berth", "count"), [((50, 0), 1), ((50, 29), 1), ((50, 30), 0)])
+def test_a_berth_that_a_limit_keeps_the_vehicle_from_is_told(
+    berth: tuple[float, float], count: int
+) -> None:
+    steps = [step("GoToXY", {"x": 19, "y": 0})]
+    dock = task("DockingApproach", {"goal_position": [*berth]}, steps, "Dock there.")
+    assert len(broken(WRECK.format(30), dock)) == count
+
+
 def test_an_area_without_an_inside_is_a_line_that_is_not_crossed() -> None:
     line = "The vehicle stays outside [50, -20], [50, -20], [50, 20]."
     assert broken(line, go((50, 0)))
