@@ -13,8 +13,8 @@ enforced, the published protocol; schema: the strict schema; state: the logic of
 the facts of the command.
 """
 WEIGHTS = ("base", "lora")
-MAX_NEW_TOKENS: dict[Level, int] = {"mission": 1024, "task": 2048}
-"""Default limits per answer; the longest expected plan takes well below half of it."""
+MAX_NEW_TOKENS: dict[Level, int] = {"mission": 2048, "task": 2048}
+"""Default limits per answer; a mission of 18 tasks that all hold a limit takes 1,500 tokens."""
 
 
 @dataclass(frozen=True)

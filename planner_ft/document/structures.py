@@ -13,11 +13,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from planner_ft.document.language import language, read_clauses
 from planner_ft.document.limits import limits_of
 from planner_ft.document.ontology import is_thing, named_lines, named_places, stands
 from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of, shown
 from planner_ft.document.vehicle import STAND_OFF
-from planner_ft.facts import Position
+from planner_ft.facts import Position, is_number, near
+from planner_ft.facts.numbers import read_numbers
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Entry, Vocabulary
 
@@ -108,6 +110,8 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
         elif known.pattern == FOLLOWING and (margin := _margin(task, vocabulary)) > own:
             stated.setdefault(place, []).append(margin)
     _of_command(document, own, kept, named, vocabulary)
+    for at, metres in said_off(document, vocabulary):
+        stated.setdefault(at, [metres])
     for name, position in (*chart, *document.get("located", {}).items()):
         if is_thing(name, vocabulary):
             named[point_of(position)] = named.get(point_of(position)) or name
@@ -139,6 +143,33 @@ def _of_command(
         named |= {at: words for at in parts if at not in named}
         # The circles of a long thing are larger: they leave no gap.
         kept |= {at: apart for at in parts if (apart := math.dist(*parts[:2])) > own + MARGIN}
+
+
+def said_off(document: Entry, vocabulary: Vocabulary) -> Iterator[tuple[Point, float]]:
+    """(place, metres) of things from which the command keeps a distance that no task has as its
+    own: "film the mast at 40,30 from 25 m away", by clauses with one thing and one such length.
+    """
+    text, words = frame_of(document).spoken, language(vocabulary).words
+    owned = [
+        task["parameters"].get(one.name)
+        for task in document["tasks"]
+        if task["title"] in vocabulary.task
+        for one in vocabulary.task[task["title"]].parameters
+        if one.unit == "m"
+    ]
+    lengths = [
+        one
+        for one in read_numbers(text)
+        if one.unit == "m"
+        and words["off_it"].match(text[one.end :].lstrip())
+        and not any(is_number(value) and near(one.value, value) for value in owned)
+    ]
+    named = named_places(text, vocabulary) if lengths else ()
+    for clause in read_clauses(text, vocabulary) if lengths else ():
+        places = [at for _words, at in named if clause.start <= at.start < clause.end]
+        said = [one.value for one in lengths if clause.start <= one.start < clause.end]
+        if len(places) == len(said) == 1 and not clause.corrected:
+            yield (places[0].x, places[0].y), said[0]
 
 
 def _margin(task: Entry, vocabulary: Vocabulary) -> float:

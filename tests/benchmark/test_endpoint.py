@@ -84,7 +84,7 @@ def test_a_server_is_asked_greedily_with_the_prompts_of_local_candidates(
         request["temperature"],
         request["seed"],
         request["max_tokens"],
-    ) == ("/v1/chat/completions", "tiny", 0, 0, 1024)
+    ) == ("/v1/chat/completions", "tiny", 0, 0, 2048)
     assert request["messages"][0] == {
         "role": "system",
         "content": system_text("mission", load_vocabulary("usv"), with_vocabulary=True),

@@ -473,6 +473,32 @@ def test_the_standoff_is_the_limits_the_tasks_or_the_vehicles_and_never_below_th
     assert structures(plan, USV)[0].standoff == 10
 
 
+@pytest.mark.parametrize(
+    ("command", "standoff"),
+    [
+        ("From 25 m away film the mast at 50,0 for a minute.", 25),
+        ("Film the mast at 50,0 for a minute from 25 m away, then go home.", 25),
+        ("Film the mast at 50,0 from 50 feet off.", 15.24),
+        ("Film the mast at 50,0, the 25 m one.", 10),
+        ("Film the mast at 50,0 and the buoy at 90,0 from 25 m away.", 25),
+        ("Film the mast at 50,0 beside the buoy at 90,0 from 25 m away.", 10),
+        ("From 40 m away film the mast at 50,0 for 40 seconds.", 40),
+    ],
+)
+def test_a_distance_that_the_command_keeps_off_a_thing_is_its_standoff(
+    command: str, standoff: float
+) -> None:
+    tasks = [
+        transit(50, 0, "Go to the mast at [50, 0]."),
+        task("KeepStation", {"duration": 40}, []),
+    ]
+    plan = document(tasks, command=command)
+    found = {one.position: one.standoff for one in structures(plan, USV)}
+    assert found.get((90, 0) if "and the buoy" in command else (50, 0)) == pytest.approx(standoff)
+    lost = [one["text"] for one in plan["warnings"] if one["kind"] == "value-lost"]
+    assert standoff == 10 or not [text for text in lost if f'"{standoff} m"' in text]
+
+
 def test_a_thing_that_a_task_looks_at_is_a_structure_and_the_place_of_the_vehicle_is_none() -> None:
     sweep = task("BoatLandingClearanceSweep", {}, [])
     assert standoffs(transit(70, 0), sweep) == {}

@@ -62,7 +62,7 @@ def answers(case: Case) -> Iterator[Warning]:
 
 CHECKS: tuple[Check, ...] = (
     answers,
-    *(limits.broken, limits.unplaced, limits.close_structures, limits.beside),
+    *(limits.broken, limits.unplaced, route.close_structures, route.beside),
     *(route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     said.harm,

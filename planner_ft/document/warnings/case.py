@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.document.language import Clause, language, read_clauses
+from planner_ft.document.structures import said_off
 from planner_ft.document.track import Point, Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.geographic import without_geographic
@@ -221,6 +222,7 @@ class PlanValues:
         stated = {spot((one.x, one.y)) for one in said}
         self.sizes = [[one.value for one in row] for line in texts for row in rows_of_sizes(line)]
         self.anywhere = {*self.numbers, *self.limited}
+        self.anywhere |= {metres for _at, metres in said_off(document, command.vocabulary)}
         self.anywhere |= {part for line in texts for part in _spoken(line, stated)}
         derived = (at for at in (*places, *gone, *corners) if spot(at) not in stated)
         self.anywhere |= {part for at in derived for part in at}

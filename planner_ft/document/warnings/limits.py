@@ -1,6 +1,4 @@
-"""Limits: those of the command that a plan has not, those that its track breaks, and the stand-offs
-of structures.
-"""
+"""Limits: those of the command that a plan has not, and those that its track breaks."""
 
 import functools
 import itertools
@@ -10,17 +8,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, ends_with
-from planner_ft.document.structures import (
-    MOVING,
-    Structure,
-    berth,
-    close_legs,
-    closed_area,
-    structures,
-    way_off,
-)
-from planner_ft.document.track import Leg, Point, circle_of, shown, stated
-from planner_ft.document.vehicle import STAND_OFF
+from planner_ft.document.structures import MOVING, berth, closed_area, structures, way_off
+from planner_ft.document.track import Leg, Point, shown, stated
 from planner_ft.document.warnings.case import (
     LONGER,
     Case,
@@ -37,12 +26,10 @@ from planner_ft.facts.clock import read_times
 from planner_ft.facts.places import BESIDE, read_bearings, rows_of_sizes
 from planner_ft.planning.limits import time_left, without_limits
 from planner_ft.planning.locations import ARTICLE
-from planner_ft.planning.shapes import face_of
 from planner_ft.vocabulary import Entry
 from planner_ft.vocabulary.limits import load_limits, read_limit
 
 TOLERANCE = 0.5  # metres by which a leg may miss a limit
-LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 LONGEST_ARTICLE = 3  # letters of words that name nothing
 BEHIND = 3  # characters between "back within" and its number: "a quarter of an hour"
 AXIS = re.compile(r"(?<![a-z])[xy]\s?(?:[=:]|equals|is)?\s?$", re.IGNORECASE)
@@ -77,21 +64,38 @@ def _lasting(most: float, held: list[Entry], case: Case, words: Entry) -> Iterat
 
 
 def unplaced(case: Case) -> Iterator[Warning]:
-    """Limits on a thing whose place is not known, where the vehicle comes too close to one that it
-    may be: a thing of the command with a word of its name, or what a clause tells of it.
+    """Limits on a thing whose place is not known, where a task goes round it too close, or the
+    vehicle comes too close to one that it may be: a thing of the command with a word of its name,
+    or what a clause tells of it.
     """
     for limit in case.limits:
         values = limit["values"]
         if "position" in values or not {"object", "distance"} <= values.keys():
             continue
-        names = {case.tasks[place - 1]["id"] for place in limit["tasks"]}
-        legs = [leg for leg in case.path.legs if leg.points and leg.task in names]
-        for place in _meant(values["object"], case):
-            if found := _too_close({**values, "position": place}, legs):
-                how = f"{found[1]} of {shown(place)}, where {values['object']} may be"
-                words = {"limit": limit["text"].rstrip("."), "about": f"{how}:{limit['text']}"}
-                yield warning("limit-broken", "task", case.by_id[found[0]], how=how, **words)
-                break
+        held = [case.tasks[place - 1] for place in limit["tasks"]]
+        legs = [leg for leg in case.path.legs if leg.points and leg.task in {t["id"] for t in held}]
+        for task, how in itertools.chain(_rounds(values, held, case), _near(values, legs, case)):
+            words = {"limit": limit["text"].rstrip("."), "about": f"{how}:{limit['text']}"}
+            yield warning("limit-broken", "task", case.by_id[task], how=how, **words)
+
+
+def _rounds(values: Entry, tasks: list[dict[str, Any]], case: Case) -> Iterator[tuple[str, str]]:
+    """Tasks that go round what a limit names."""
+    for task in tasks:
+        circle = case.vocabulary.motion.standoff(task["title"])
+        radius = task["parameters"].get(circle.radius) if circle else None
+        prompt = without_limits(task["task_prompt"], case.vocabulary)
+        named = ARTICLE.sub("", values["object"]) in prompt
+        if named and radius and radius < values["distance"] - TOLERANCE:
+            yield task["id"], f"goes round it at {radius:g} m"
+
+
+def _near(values: Entry, legs: list[Leg], case: Case) -> Iterator[tuple[str, str]]:
+    """The first place that a limit may mean and that is come too close to."""
+    for place in _meant(values["object"], case):
+        if found := _too_close({**values, "position": place}, legs):
+            yield found[0], f"{found[1]} of {shown(place)}, where {values['object']} may be"
+            return
 
 
 def unsaid_areas(case: Case) -> Iterator[Warning]:
@@ -252,27 +256,6 @@ def _recording(limit: Entry, tasks: list[dict[str, Any]], case: Case) -> Found:
     return None
 
 
-def close_structures(case: Case) -> Iterator[Warning]:
-    """One per structure that a task comes too close to and that no limit names; of what reaches
-    from one place to another its nearest part.
-    """
-    limited = [limit["values"] for limit in case.limits]
-    told = {one.get("object") for one in limited if "position" not in one}
-    told |= {shown(one["position"]) for one in limited if "position" in one}
-    nearest = dict[tuple[str, str], tuple[float, Structure]]()
-    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
-        at, bar = shown(structure.position), case.words["bars"].fullmatch(structure.name)
-        key, found = (name, structure.name if bar else at), (metres, structure)
-        nearest[key] = min(nearest.get(key, found), found, key=lambda one: one[0])
-    for (name, _key), (metres, structure) in nearest.items():
-        at = shown(structure.position)
-        if structure.name not in told and at not in told:
-            where = structure.name if structure.name == at else f"{structure.name} at {at}"
-            values: dict[str, Any] = {"metres": metres, "name": where}
-            values["standoff"] = structure.standoff
-            yield warning("structure-close", task=case.by_id[name], about=at, **values)
-
-
 def lost_limits(case: Case) -> Iterator[Warning]:
     """Clauses that limit with a number or a position that no limit and no task has."""
     for clause in filter(functools.partial(is_lost, case=case), case.clauses):
@@ -328,13 +311,3 @@ def _is_kept(clause: Clause, case: Case) -> bool:
         any(near(one.value, other) for other in (known if one.start < last else plan.limited))
         for one in said
     )
-
-
-def beside(case: Case) -> Iterator[Warning]:
-    """Tasks that go round a structure, or along it, nearer than any vehicle of the kind may."""
-    least = case.vehicle.get("stand_off", STAND_OFF) * LEAST
-    for task in case.tasks:
-        circle, face = circle_of(task, case.vocabulary), face_of(task, case.vocabulary)
-        metres = circle[1] if circle else face.distance if face else least
-        if 0 < metres < least:
-            yield warning("structure-close", "beside", task, metres=metres)

@@ -1,6 +1,6 @@
-"""Whether the vehicle can carry the plan out: order, endurance, return, boundaries, area, reach;
-and whether steps perform their task: a grid covers its area, a pass has its length, a panorama
-looks in all its directions.
+"""Whether the vehicle can carry the plan out: order, endurance, return, boundaries, area, reach,
+structures; and whether steps perform their task: a grid covers its area, a pass has its length, a
+panorama looks in all its directions.
 """
 
 import functools
@@ -10,13 +10,14 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause
-from planner_ft.document.structures import MOVING
-from planner_ft.document.track import Leg, Point, place_of, shown
+from planner_ft.document.structures import MOVING, Structure, close_legs
+from planner_ft.document.track import Leg, Point, circle_of, place_of, shown
+from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings.case import Case, Warning, named, warning
 from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
 from planner_ft.planning.limits import last_away, without_limits
-from planner_ft.planning.shapes import goal_of, shape_problem
+from planner_ft.planning.shapes import face_of, goal_of, shape_problem
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.plans import is_number
 from planner_ft.vocabulary.replay import START, Condition, stops
@@ -34,6 +35,7 @@ MEASURES = ("m", "s", "m/s", "count")  # units of what cannot be nothing; an ang
 TURNS = ("turn-to", "turn-by")
 TOLERANCE = 0.5  # metres beyond a boundary that are its line still
 BACK = re.compile(r"(?i)(?P<way>.*[\d\])])\s+(?:and|then)\s+back(?:\s+[a-z]+)?\s*", re.DOTALL)
+LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 CLOSE = 40  # characters before "and back" in which its way is said
 INSIDE = re.compile(r"(?i)\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b")
 
@@ -256,3 +258,34 @@ def _prepared(corners: tuple[Point, ...]) -> Any:
     area = whole.buffer(TOLERANCE)
     prepare(area)
     return area
+
+
+def close_structures(case: Case) -> Iterator[Warning]:
+    """One per structure that a task comes too close to and that no limit names; of what reaches
+    from one place to another its nearest part.
+    """
+    limited = [limit["values"] for limit in case.limits]
+    told = {one.get("object") for one in limited if "position" not in one}
+    told |= {shown(one["position"]) for one in limited if "position" in one}
+    nearest = dict[tuple[str, str], tuple[float, Structure]]()
+    for name, structure, metres in close_legs(case.document, case.path.legs, case.vocabulary):
+        at, bar = shown(structure.position), case.words["bars"].fullmatch(structure.name)
+        key, found = (name, structure.name if bar else at), (metres, structure)
+        nearest[key] = min(nearest.get(key, found), found, key=lambda one: one[0])
+    for (name, _key), (metres, structure) in nearest.items():
+        at = shown(structure.position)
+        if structure.name not in told and at not in told:
+            where = structure.name if structure.name == at else f"{structure.name} at {at}"
+            values: dict[str, Any] = {"metres": metres, "name": where}
+            values["standoff"] = structure.standoff
+            yield warning("structure-close", task=case.by_id[name], about=at, **values)
+
+
+def beside(case: Case) -> Iterator[Warning]:
+    """Tasks that go round a structure, or along it, nearer than any vehicle of the kind may."""
+    least = case.vehicle.get("stand_off", STAND_OFF) * LEAST
+    for task in case.tasks:
+        circle, face = circle_of(task, case.vocabulary), face_of(task, case.vocabulary)
+        metres = circle[1] if circle else face.distance if face else least
+        if 0 < metres < least:
+            yield warning("structure-close", "beside", task, metres=metres)

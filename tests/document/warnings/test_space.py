@@ -90,6 +90,17 @@ def test_a_berth_that_a_limit_keeps_the_vehicle_from_is_told(
     assert len(broken(WRECK.format(30), dock)) == count
 
 
+@pytest.mark.parametrize(
+    ("radius", "name", "count"), [(15, "wreck", 1), (15, "mast", 0), (30, "wreck", 0)]
+)
+def test_a_round_closer_than_a_limit_is_told_before_the_thing_is_found(
+    radius: float, name: str, count: int
+) -> None:
+    values = {"target_position": [-99, -99], "radius": radius}
+    survey = task("SurveyTarget", values, None, f"Inspect the {name} once it has been found.")
+    assert len(broken("The vehicle stays at least 30 m from the wreck.", survey)) == count
+
+
 def test_an_area_without_an_inside_is_a_line_that_is_not_crossed() -> None:
     line = "The vehicle stays outside [50, -20], [50, -20], [50, 20]."
     assert broken(line, go((50, 0)))
