@@ -178,6 +178,8 @@ class GroundedValues(Values):
         usable = (place for place in found if max(map(abs, place)) < LARGEST)
         own = self._vocabulary.home, self._vocabulary.unresolved
         self._places = list(dict.fromkeys([*own, *usable]))
+        # A long command gives thousands, and they are written before every value.
+        self._text = functools.cache(lark.written)
         self.notes = list(source.facts.unread)
         self.notes += [UNPAIRED] if source.facts.loose else []
         self.notes += [TOO_LONG] if self._spans.too_long else []
@@ -207,7 +209,7 @@ class GroundedValues(Values):
             crossed = len(known) <= MOST_CROSSED
             places = itertools.product(*zip(*known, strict=True)) if crossed else known
         barred = set(map(tuple, without))
-        return grammar.one_of(lark.written(place) for place in places if place not in barred)
+        return grammar.one_of(self._text(place) for place in places if place not in barred)
 
     @property
     def areas(self) -> Sequence[Area]:
