@@ -189,7 +189,8 @@ def _how(limit: Entry, held: list[dict[str, Any]], case: Case) -> Found:
     if kind in ("fence", "keep_out_area"):
         return _area(kind, values["polygon"], legs)
     if kind == "keep_out" and "position" in values:
-        return _too_close(values, legs) or _docks(values, held, case)
+        found = _too_close(values, legs) or _docks(values, held, case)
+        return found or next(_rounds(values, held, case), None)
     if kind == "distance":
         home = case.vocabulary.home
         away = ((math.dist(point, home), leg.task) for leg in legs for point in leg.points)

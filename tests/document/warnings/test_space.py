@@ -99,6 +99,7 @@ def test_a_round_closer_than_a_limit_is_told_before_the_thing_is_found(
     values = {"target_position": [-99, -99], "radius": radius}
     survey = task("SurveyTarget", values, None, f"Inspect the {name} once it has been found.")
     assert len(broken("The vehicle stays at least 30 m from the wreck.", survey)) == count
+    assert len(broken(WRECK.format(30), survey)) == count
 
 
 def test_an_area_without_an_inside_is_a_line_that_is_not_crossed() -> None:
