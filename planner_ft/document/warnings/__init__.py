@@ -113,7 +113,7 @@ CHECKS: tuple[Check, ...] = (
     ),
     *(values.unmentioned, values.declined),
     *(values.unsaid_skills, places.done_again, picked.at_corners, picked.elsewhere),
-    *(picked.named_order, picked.ends_otherwise),
+    *(picked.named_order, picked.ends_otherwise, picked.of_another_task),
 )
 """In the order in which warnings of one kind stand."""
 EMPTY: tuple[Check, ...] = (answers, said.harm, asked.other_words, asked.not_planned, values.unread)

@@ -85,8 +85,8 @@ def _rounds(values: Entry, tasks: list[dict[str, Any]], case: Case) -> Iterator[
         circle = case.vocabulary.motion.standoff(task["title"])
         radius = task["parameters"].get(circle.radius) if circle else None
         prompt = without_limits(task["task_prompt"], case.vocabulary)
-        named = ARTICLE.sub("", values["object"]) in prompt
-        if named and radius and radius < values["distance"] - TOLERANCE:
+        name = ARTICLE.sub("", values.get("object", ""))
+        if name and name in prompt and radius and radius < values["distance"] - TOLERANCE:
             yield task["id"], f"goes round it at {radius:g} m"
 
 

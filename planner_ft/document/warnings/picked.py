@@ -238,3 +238,29 @@ def at_corners(case: Case) -> Iterator[Warning]:
         said = [one for one in case.positions if at and same_place(one, at)]
         if at and at != known.home and spot(at) in corners and len(said) == 1:
             yield warning("value-not-said", "asked", task, about="asked")
+
+
+def of_another_task(case: Case) -> Iterator[Warning]:
+    """A name of one task that the command says only where it asks for others: a video of the
+    "subsea cable" that is to be tracked. What is looked for is named by other tasks.
+    """
+    asks, titles = case.spoken.asks, {task["title"] for task in case.tasks}
+    values = [value for task in case.tasks for value in task["parameters"].values()]
+    for task in case.tasks:
+        own = [ask for ask in asks if task["title"] in ask.tasks]
+        others = [ask for ask in asks if ask not in own and ask.tasks & titles]
+        for item in case.vocabulary.task[task["title"]].parameters:
+            value = task["parameters"].get(item.name) if item.type == "text" else None
+            if not value or values.count(value) > 1 or task["title"] == case.vocabulary.locate:
+                continue
+            said = re.finditer(re.escape(value), case.text, re.IGNORECASE)
+            clauses = [clause for one in said if (clause := case.clause_at(one.start()))]
+            alien = [_asked_in(one, others) and not _asked_in(one, own) for one in clauses]
+            if clauses and all(alien):
+                words = {"name": item.name, "value": f'"{value}"'}
+                words["words"] = quoted(clauses[0].text.strip(" ,;."))
+                yield warning("value-not-said", "other_task", task, item.name, **words)
+
+
+def _asked_in(clause: Clause, asks: Sequence[Ask]) -> bool:
+    return any(ask.said.search(clause.text) for ask in asks)

@@ -111,3 +111,22 @@ def test_a_corner_of_a_surveyed_area_is_not_gone_to(
 
 def test_an_ordinal_beyond_the_places_picks_none() -> None:
     assert said("Go to 20,0 and 40,0. Skip the fourth. Hold at the last one.", to(40), hold()) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "feature", "count"),
+    [
+        ("Film the flare tip for a minute. Track the subsea cable from 0,0.", "subsea cable", 1),
+        ("Film the flare tip for a minute. Track the subsea cable from 0,0.", "flare tip", 0),
+        ("Film the cable end for a minute. Track the cable from 0,0.", "cable", 0),
+        ("Look at the cable and film it. Track the subsea line from 0,0.", "cable", 0),
+        ("Track the subsea cable from 0,0.", "subsea cable", 1),
+    ],
+)
+def test_a_name_that_is_said_of_another_task_alone_is_told(
+    command: str, feature: str, count: int
+) -> None:
+    stare = task("FeatureStare", {"feature_type": feature, "duration": 60}, [])
+    track = task("SubseaCableTrack", {"start": [0, 0]}, [])
+    warnings = document([stare, track], command=command)["warnings"]
+    assert sum("of another task alone" in one["text"] for one in warnings) == count
