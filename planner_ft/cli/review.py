@@ -18,7 +18,7 @@ from planner_ft.support.files import indented_json
 from planner_ft.support.geodesy import parse_origin
 from planner_ft.support.resources import open_torch, uncollected
 from planner_ft.support.terminal import Report, show, terminal
-from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 if TYPE_CHECKING:
     from planner_ft.document import PlanDocument
@@ -49,7 +49,6 @@ def plan(o: Options) -> None:
 
 def _plan(o: Options) -> PlanDocument:
     """Check the options, then plan."""
-    from concurrent.futures import ThreadPoolExecutor
     from dataclasses import replace
 
     from planner_ft.document import build
@@ -70,23 +69,28 @@ def _plan(o: Options) -> PlanDocument:
         patient(report) as progress,
         Planner(o.into(PlanSettings), progress) as planner,
     ):
-        # Imports torch, whose library is open by now.
-        from planner_ft.decoding.engine import is_small
-
-        agents = planner.agents
-        with ThreadPoolExecutor(1) as beside:
-            if is_small(agents.agents["mission"].candidate, agents.device.type):
-                beside.submit(agents.load, "mission")  # Planning raises what stops it.
-            profile = load_vehicle(o.vehicle, planner.vocabulary)
-            profile = replace(profile, area=corners) if corners else profile
-            if doubt := other_language(text):
-                show(doubt, error=True)
-            for question in check(text, planner.vocabulary)["questions"]:
-                show(f"the command does not say: {question}", error=True)
-            for doubt in untrained(agents.agents, planner.vocabulary):
-                show(doubt, error=True)
+        profile = load_vehicle(o.vehicle, planner.vocabulary)
+        profile = replace(profile, area=corners) if corners else profile
+        # Loading a model leaves Python to others, who read the words of the language meanwhile.
+        reading = threading.Thread(target=_read, args=(planner.vocabulary,), daemon=True)
+        reading.start()
+        planner.agents.load("mission")
+        reading.join()
+        if doubt := other_language(text):
+            show(doubt, error=True)
+        for question in check(text, planner.vocabulary)["questions"]:
+            show(f"the command does not say: {question}", error=True)
+        for doubt in untrained(planner.agents.agents, planner.vocabulary):
+            show(doubt, error=True)
         planned = planner.plan(text, locations, origin=origin, chart=chart)
         return build(planned, planner.vocabulary, profile)
+
+
+def _read(vocabulary: Vocabulary) -> None:
+    from planner_ft.document.language import language
+
+    with contextlib.suppress(PlannerError):  # The first check raises it again.
+        language(vocabulary)
 
 
 @contextlib.contextmanager
@@ -95,8 +99,9 @@ def patient(report: Report) -> Iterator[Report]:
     last: list[tuple[str, int, int]] = []
 
     def speak() -> None:
-        for state in last:
-            report(*state)
+        with contextlib.suppress(KeyboardInterrupt):  # The main thread has its own.
+            for state in last:
+                report(*state)
 
     timer = threading.Timer(PATIENCE, speak)
     timer.daemon = True
