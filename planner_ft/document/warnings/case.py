@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from planner_ft.document.language import Clause, language, read_clauses
-from planner_ft.document.structures import said_off
+from planner_ft.document.structures import ROUND, said_off
 from planner_ft.document.track import Point, Track, bearing, place_of
 from planner_ft.facts import Input, Number, Position, is_number, is_place, near, read_input
 from planner_ft.facts.geographic import without_geographic
@@ -208,6 +208,9 @@ class PlanValues:
         for task in tasks:
             last = place_of(task, command.vocabulary) or last
             where.append((task["title"], str(task["parameters"]), last))
+            # "Once at 30 m, a second lap at 20 m."
+            if command.vocabulary.task[task["title"]].pattern in ROUND:
+                where.append((task["title"], "", last))
         self.often = [*(gone or places), *where]
         texts = [*document.get("constraints", ()), *document.get("assumptions", ())]
         texts += [task["task_prompt"] for task in tasks]

@@ -137,6 +137,12 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Go round the mast at 60,60 twice at 20 m.", [orbit(720)], (), None),
         ("Go round the mast at 60,60 twice at 20 m.", [orbit(720), orbit(720)], (), "repeat-lost"),
         ("Go round the mast at 60,60 twice at 20 m.", [orbit(360), orbit(360)], (), None),
+        (
+            "Once round the mast at 60,60 at 20 m, second lap at 25 m.",
+            [orbit(360), {**orbit(360), "parameters": {**orbit(360)["parameters"], "radius": 25}}],
+            (),
+            None,
+        ),
         ("Go round the mast at 60,60 twice at 20 m each.", [orbit(720), orbit(720)], (), None),
         ("Find mast and can, round both twice at 20 m.", [orbit(720, OPEN)] * 2, (), None),
         ("Go round the mast at 60,60 three times at 20 m.", [orbit(1080)], (), None),
