@@ -30,6 +30,7 @@ FACING = ("sweep", "pass")
 """Patterns of tasks that look at a structure from where the vehicle has gone to."""
 FOLLOWING = "follow"
 """The pattern of a task that goes up to its place and no closer than its filters let it."""
+LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 SAME = 0.6  # metres within which a waypoint is a structure itself
 MARGIN = 0.5
 """Metres that an added waypoint lies farther off than it must, and that a leg may come closer."""
@@ -147,9 +148,11 @@ def _of_command(
 
 def said_off(document: Entry, vocabulary: Vocabulary) -> Iterator[tuple[Point, float]]:
     """(place, metres) of things from which the command keeps a distance that no task has as its
-    own: "film the mast at 40,30 from 25 m away", by clauses with one thing and one such length.
+    own: "film the mast at 40,30 from 25 m away", by clauses with one thing and one such length. One
+    that is hardly meant is none.
     """
     text, words = frame_of(document).spoken, language(vocabulary).words
+    least = LEAST * (document.get("vehicle") or {}).get("stand_off", STAND_OFF)
     owned = [
         task["parameters"].get(one.name)
         for task in document["tasks"]
@@ -161,6 +164,7 @@ def said_off(document: Entry, vocabulary: Vocabulary) -> Iterator[tuple[Point, f
         one
         for one in read_numbers(text)
         if one.unit == "m"
+        and one.value >= least
         and words["off_it"].match(text[one.end :].lstrip())
         and not any(is_number(value) and near(one.value, value) for value in owned)
     ]

@@ -480,6 +480,7 @@ def test_the_standoff_is_the_limits_the_tasks_or_the_vehicles_and_never_below_th
         ("Film the mast at 50,0 for a minute from 25 m away, then go home.", 25),
         ("Film the mast at 50,0 from 50 feet off.", 15.24),
         ("Film the mast at 50,0, the 25 m one.", 10),
+        ("Film the mast at 50,0 from 1 m away.", 10),
         ("Film the mast at 50,0 and the buoy at 90,0 from 25 m away.", 25),
         ("Film the mast at 50,0 beside the buoy at 90,0 from 25 m away.", 10),
         ("From 40 m away film the mast at 50,0 for 40 seconds.", 40),

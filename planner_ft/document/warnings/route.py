@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause
-from planner_ft.document.structures import MOVING, Structure, close_legs
+from planner_ft.document.structures import LEAST, MOVING, Structure, close_legs
 from planner_ft.document.track import Leg, Point, circle_of, place_of, shown
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.document.warnings.case import Case, Warning, named, warning
@@ -35,7 +35,6 @@ MEASURES = ("m", "s", "m/s", "count")  # units of what cannot be nothing; an ang
 TURNS = ("turn-to", "turn-by")
 TOLERANCE = 0.5  # metres beyond a boundary that are its line still
 BACK = re.compile(r"(?i)(?P<way>.*[\d\])])\s+(?:and|then)\s+back(?:\s+[a-z]+)?\s*", re.DOTALL)
-LEAST = 0.2  # the part of the stand-off below which a stated distance is hardly meant
 CLOSE = 40  # characters before "and back" in which its way is said
 INSIDE = re.compile(r"(?i)\b(?:inside|within|boundary|fence|geofence|box|polygon|leave)\b")
 
