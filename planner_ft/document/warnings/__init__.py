@@ -112,7 +112,7 @@ CHECKS: tuple[Check, ...] = (
         values.unsought,
     ),
     *(values.unmentioned, values.declined),
-    *(values.unsaid_skills, places.done_again, picked.at_corners, picked.elsewhere),
+    *(values.unsaid_skills, repeats.done_again, picked.at_corners, picked.elsewhere),
     *(picked.named_order, picked.ends_otherwise, picked.of_another_task),
 )
 """In the order in which warnings of one kind stand."""

@@ -189,28 +189,6 @@ def uneven_rows(case: Case) -> Iterator[Warning]:
             yield warning("value-lost", "uneven", about=where, titles=what, place=where)
 
 
-def done_again(case: Case) -> Iterator[Warning]:
-    """What is done again at a place that the command says once, or at once where the vehicle is,
-    without words for doing it again. A way leads there again where nothing is done at its end.
-    """
-    if any(case.words[name].search(case.command) for name in ("again", "repeats")):
-        return
-    known, done = case.vocabulary, list[tuple[str, Entry]]()
-    behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["self"]
-    for task, arrival in zip(case.tasks, behind, strict=True):
-        at, one = place_of(task, known), (task["title"], task["parameters"])
-        if at is None and one in done[-1:]:
-            yield warning("value-not-said", "asked", task, about="asked")
-        if at is None or at == known.home:
-            done += [one] if at is None else []
-            continue
-        ends = one not in done[-1:] and arrival == "self"
-        said = sum(same_place(place, at) for place in case.positions)
-        if said == 1 and one in done and (task["title"] != known.transit or ends):
-            yield warning("value-not-said", "asked", task, about="asked")
-        done.append(one)
-
-
 def unvisited(case: Case) -> Iterator[Warning]:
     """A known place that the command names, and to which neither a task nor a limit leads."""
     places = [place_of(task, case.vocabulary) for task in case.tasks]

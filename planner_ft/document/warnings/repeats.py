@@ -1,18 +1,24 @@
-"""Repeats that the command says and the plan has not: counts, intervals, the same for each."""
+"""Repeats that the command says and the plan has not: counts, intervals, the same for each; and
+what the plan does again unasked.
+"""
 
 import itertools
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.document.structures import ROUND
 from planner_ft.document.track import place_of
-from planner_ft.document.warnings.case import FULL, Case, Warning, quoted, spot, warning
-from planner_ft.facts import is_number, near
+from planner_ft.document.warnings.case import FULL, Case, Warning, quoted, same_place, spot, warning
+from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.places import rows_of
+from planner_ft.vocabulary import Entry
 
+AGAIN = ("again", "repeats")
+"""Lists of words for doing something again."""
+MANY = 8  # tasks that words may ask for which tell little of any
 SENTENCE = re.compile(r"^|[.!?;]\s")
 WAITING = ("hold", "follow", "drift", "visual")
 """Patterns of tasks that can go on for as long as nobody says otherwise."""
@@ -133,3 +139,45 @@ def repeats(case: Case) -> Iterator[Warning]:
                 yield warning("repeat-lost", "count", **about)
             elif not case.words["each"].search(text) and _is_done_again(count, found, case):
                 yield warning("repeat-lost", "again", **about)
+
+
+def done_again(case: Case) -> Iterator[Warning]:
+    """What is done again at a place that the command says once, or at once where the vehicle is,
+    without words for doing it again. A way leads there again where nothing is done at its end.
+    """
+    again = any(case.words[name].search(case.command) for name in AGAIN)
+    known, done = case.vocabulary, list[tuple[str, Entry]]()
+    behind = [known.task[task["title"]].arrival for task in case.tasks[1:]] + ["self"]
+    for number, (task, arrival) in enumerate(zip(case.tasks, behind, strict=True)):
+        at, one = place_of(task, known), (task["title"], task["parameters"])
+        if at is None and one in done[-1:] and not again:
+            yield warning("value-not-said", "asked", task, about="asked")
+        if at is None or at == known.home:
+            done += [one] if at is None else []
+            continue
+        ends = one not in done[-1:] and arrival == "self"
+        said = [place for place in case.positions if same_place(place, at)]
+        twice = len(said) == 1 and one in done and (task["title"] != known.transit or ends)
+        if twice and not _asked_again(task, case.tasks[:number], said[0], case):
+            yield warning("value-not-said", "asked", task, about="asked")
+        done.append(one)
+
+
+def _asked_again(task: Entry, before: Sequence[Entry], at: Position, case: Case) -> bool:
+    """Whether a task may be done again on purpose: in another manner, asked for several times, or
+    with words for that where the command asks for it or says its place. "Lost it twice on Monday"
+    asks for nothing.
+    """
+    known = case.vocabulary.task[task["title"]]
+    alike = (one for one in before if one["title"] == task["title"])
+    same = known.pattern not in (*ROUND, "lawnmower") or any(
+        one["task_prompt"] == task["task_prompt"] for one in alike
+    )
+    own = [ask for ask in case.spoken.asks if task["title"] in ask.tasks and len(ask.tasks) < MANY]
+    asked = [one for one in case.clauses if any(ask.said.search(one.text) for ask in own)]
+    there = [one for one in case.clauses if one.start <= at.start < one.end]
+    words = [case.words[name] for name in AGAIN]
+    # On the way there and back nothing need be asked for.
+    clauses = case.clauses if task["title"] == case.vocabulary.transit else (*asked, *there)
+    told = any(word.search(one.text) for one in clauses for word in words)
+    return not same or len(asked) > 1 or told

@@ -622,6 +622,24 @@ def test_a_task_that_is_done_again_at_once_is_told(
 
 
 @pytest.mark.parametrize(
+    ("command", "prompts", "count"),
+    [
+        ("Survey the mast at [60, 60]. We lost it twice.", ("Do it.", "Do it."), 1),
+        ("Survey the mast at [60, 60]. Come back home.", ("Do it.", "Do it."), 1),
+        ("Survey the mast at [60, 60]. Come back home.", ("North.", "South."), 0),
+        ("Survey the mast at [60, 60] twice.", ("Do it.", "Do it."), 0),
+        ("Survey the mast at [60, 60], then survey the mast back then.", ("Do it.", "Do it."), 0),
+    ],
+)
+def test_words_for_doing_again_count_where_the_task_is_asked_for(
+    command: str, prompts: tuple[str, str], count: int
+) -> None:
+    values = {"target_position": [60, 60], "radius": 9}
+    plan = document([task("SurveyTarget", values, [], one) for one in prompts], command=command)
+    assert [one["id"] for one in plan["warnings"]].count("value-not-said:t2:asked") == count
+
+
+@pytest.mark.parametrize(
     ("command", "lost"),
     [
         ("Deliver 6 oxygen bottles to [20, 30].", ["6"]),
