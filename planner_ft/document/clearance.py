@@ -27,7 +27,8 @@ from planner_ft.document.structures import (
 from planner_ft.document.track import Pen, Point, circle_of, place_of, point_of
 from planner_ft.facts.geometry import offset
 from planner_ft.facts.places import read_bearings
-from planner_ft.planning.shapes import Face, face_of, goal_of, with_goal
+from planner_ft.planning.passes import Face, face_of
+from planner_ft.planning.shapes import goal_of, with_goal
 from planner_ft.vocabulary import Entry, Vocabulary
 
 MOST_ROUNDS = 30

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -21,9 +21,10 @@ from planner_ft.planning.locations import (
     open_places,
     resolve,
 )
+from planner_ft.planning.passes import gone_to, with_pass
 from planner_ft.planning.result import AgentUse, Answer, Doubt, Planned, PlannedTask, doubts
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
-from planner_ft.planning.shapes import with_pass, with_shape
+from planner_ft.planning.shapes import with_shape
 from planner_ft.support.errors import PlannerError
 from planner_ft.support.files import nearest_folder, writing
 from planner_ft.support.geodesy import Origin
@@ -125,10 +126,11 @@ class Planner:
         measured = use, agents.peak_memory(), manifest
         return Planned(*what, *measured, origin, dict(chart or {}), tuple(unsure))
 
-    def skills(self, task: Mapping[str, Any]) -> Answer:
+    def skills(self, task: Mapping[str, Any], before: Sequence[Mapping[str, Any]] = ()) -> Answer:
         """The Task Agent's answer, valid or not, for `title`, `parameters` and `task_prompt`.
 
-        The vehicle's defaults and essential skills are part of it. Raises PlannerError without a
+        The vehicle's defaults and essential skills are part of it; a task whose prompt says no
+        place begins where the tasks `before` it have gone to. Raises PlannerError without a
         Task Agent, for a task whose place is open, and for one that lacks what must be asked.
         """
         if "task" not in self.agents.agents:
@@ -147,7 +149,9 @@ class Planner:
         answer = self.agents.ask("task", {**record, "prompt": prompt})
         if answer.plan is None:
             return answer
-        steps, ends = with_pass(filled, answer.plan["skill_sequence"], self.vocabulary)
+        steps, ends = with_pass(
+            filled, answer.plan["skill_sequence"], self.vocabulary, gone_to(before, self.vocabulary)
+        )
         steps, shaped = with_shape(filled, steps, self.vocabulary)
         steps, added = with_essentials(filled, steps, self.vocabulary)
         defaults = missing_defaults(task, self.vocabulary)
@@ -189,7 +193,7 @@ class Planner:
         for done, at in enumerate(ready):
             self.agents.load("task")
             self._progress("Task Agent", done, len(ready))
-            answer = self.skills(vars(planned[at]))
+            answer = self.skills(vars(planned[at]), plan["tasks"][:at])
             planned[at] = replace(planned[at], answer=answer)
             on_event(SkillsKnown(at + 1, answer))
             self._progress("Task Agent", done + 1, len(ready))

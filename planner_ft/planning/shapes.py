@@ -1,8 +1,5 @@
-"""Waypoints that follow from the task's values, where the Task Agent's do not make its shape: both
-ends of a pass along a face, the points of a grid, a square or a line.
-
-A face is on the stated side of its structure; the pass has its middle before it, runs along it and
-keeps its distance, so its ends follow from side, length, distance and the structure's place.
+"""Waypoints that follow from the task's values, where the Task Agent's do not make its shape: the
+points of a grid, a square or a line.
 """
 
 import copy
@@ -10,7 +7,6 @@ import itertools
 import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from planner_ft.facts import geometry as g
 from planner_ft.facts import near
@@ -34,33 +30,6 @@ AGAIN = re.compile(r"\b(?:again|twice|times|back|both|repeat\w*)\b", re.IGNORECA
 SLACK, SHARE = 0.5, 0.02
 """Metres, and the share of a length, by which waypoints may differ from it."""
 MOST_WAYPOINTS = 128
-BESIDE = 0.1  # the share of a pass by which its waypoints may lie beside its ends
-
-
-def with_pass(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
-    """The steps with both ends of the pass, and what was added; as they are where they make a pass,
-    have more waypoints than one, or where its ends do not follow from the task.
-    """
-    goals = [goal_of(step, vocabulary) for step in steps]
-    made = [goal for goal in goals if goal]
-    moving = [at for at, goal in enumerate(goals) if goal]
-    ends = pass_ends(task, vocabulary)
-    if not ends or len(made) not in (1, 2) or _is_pass(made, ends):
-        return list(steps), Added()
-    both = (ends, ends[::-1])
-    nearer = min(both, key=lambda pair: sum(map(math.dist, made, pair)))
-    first, last = moving[0], moving[-1]
-    whole = steps if last > first else [*steps[: first + 1], *steps[first:]]
-    return _placed(whole, zip((first, max(last, first + 1)), nearer, strict=True), vocabulary)
-
-
-def _is_pass(made: Sequence[Point], ends: Sequence[Point]) -> bool:
-    """Whether two waypoints pass a whole face, each near one of its ends."""
-    length = math.dist(*ends)
-    beside = all(
-        min(math.dist(point, end) for end in ends) <= BESIDE * length + SLACK for point in made
-    )
-    return beside and run_of(made) >= length * (1 - SHARE)
 
 
 def with_shape(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -> Completed:
@@ -77,7 +46,7 @@ def with_shape(task: TaskEntry, steps: Sequence[Step], vocabulary: Vocabulary) -
     if not twice and not shape_problem(task, goals, vocabulary):
         return list(steps), Added()
     whole = [steps[min(at, len(steps) - 1)] for at in range(len(points))]
-    return _placed(whole, enumerate(points), vocabulary)
+    return placed(whole, enumerate(points), vocabulary)
 
 
 def goal_of(step: Step, vocabulary: Vocabulary) -> Point | None:
@@ -94,7 +63,7 @@ def with_goal(step: Step, point: Sequence[float], vocabulary: Vocabulary) -> Ste
     return {**step, "navigation_skill": {**skill, "parameters": {**skill["parameters"], **at}}}
 
 
-def _placed(
+def placed(
     steps: Sequence[Step], points: Iterable[tuple[int, Point]], vocabulary: Vocabulary
 ) -> Completed:
     """The steps with other waypoints, by index, and a mark for each coordinate."""
@@ -117,53 +86,12 @@ def _axes(skill: str, vocabulary: Vocabulary) -> list[str]:
     return [item.name for item in vocabulary.skill[skill].coordinates]
 
 
-# ---------------------------------------------------------------- passes
-
-
-@dataclass(frozen=True)
-class Face:
-    """A face of a structure: its ends, the bearing that it looks to, the distance to be kept."""
-
-    ends: tuple[Point, Point]
-    side: float
-    distance: float
-
-    @property
-    def middle(self) -> Point:
-        """The place of the structure."""
-        (a, b), (c, d) = self.ends
-        return (a + c) / 2, (b + d) / 2
-
-
-def face_of(task: TaskEntry, vocabulary: Vocabulary) -> Face | None:
-    """The face that a task runs along, where it follows from the task for certain."""
-    given = task["parameters"]
-    bearings = read_bearings(str(given.get(SIDE, "")))
-    places = [place for place in read_positions(task["task_prompt"]) if place.certain]
-    measures = [given.get(name) for name in PASS]
-    known = vocabulary.task[task["title"]].pattern == "pass" and all(map(is_number, measures))
-    if not known or len(bearings) != 1 or len(places) != 1:
-        return None
-    side, at = bearings[0].value, (places[0].x, places[0].y)
-    first, last = (g.offset(at, side + turn, measures[0] / 2) for turn in (-90, 90))
-    return Face((first, last), side, measures[1])
-
-
-def pass_ends(task: TaskEntry, vocabulary: Vocabulary) -> tuple[Point, Point] | None:
-    """Both ends of a pass; None where side, length, distance or place are not known for certain."""
-    face = face_of(task, vocabulary)
-    if face is None:
-        return None
-    first, last = (g.offset(end, face.side, face.distance) for end in face.ends)
-    return first, last
+# ---------------------------------------------------------------- grids, squares and lines
 
 
 def run_of(points: Sequence[Point]) -> float:
     """The largest distance between two of some waypoints."""
     return max((math.dist(*pair) for pair in itertools.combinations(points, 2)), default=0.0)
-
-
-# ---------------------------------------------------------------- grids, squares and lines
 
 
 def shape_points(task: TaskEntry, vocabulary: Vocabulary) -> list[Point]:
@@ -189,9 +117,11 @@ def shape_problem(task: TaskEntry, points: Sequence[Point], vocabulary: Vocabula
     """Why waypoints do not make the pass, grid, line or square of a task, for an operator."""
     known, given = vocabulary.task[task["title"]], task["parameters"]
     if known.pattern == "pass" and is_number(length := given.get(PASS[0])) and points:
-        short = run_of(points) < length * (1 - SHARE) - SLACK
-        said = f"its waypoints are {run_of(points):.3g} m apart, and its length is {length:g} m"
-        return said if short else None
+        if run_of(points) < length * (1 - SHARE) - SLACK:
+            return f"its waypoints are {run_of(points):.3g} m apart, and its length is {length:g} m"
+        side = str(given.get(SIDE, ""))
+        guess = f'"{side}" is no compass direction, so on which side its waypoints lie is a guess'
+        return None if read_bearings(side) else guess
     if known.pattern == "lawnmower" and all(is_number(given.get(name)) for name in SIZE):
         size, spacing = [given[name] for name in SIZE], given.get(SPACING, 0)
         problem = _grid_problem(size, spacing, points)

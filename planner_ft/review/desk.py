@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 from itertools import count
@@ -87,8 +87,10 @@ def signature(path: Path | None) -> tuple[int, int, int] | None:
     return (stat.st_mtime_ns, stat.st_size, stat.st_ino) if stat else None
 
 
-Ask = Callable[[Mapping[str, Any]], Answer] | None
-"""Asks the Task Agent for the skills of a document's task. Raises PlannerError without a model."""
+Ask = Callable[[Mapping[str, Any], Sequence[Mapping[str, Any]]], Answer] | None
+"""Asks the Task Agent for the skills of a document's task, given with those before it. Raises
+PlannerError without a model.
+"""
 
 
 class Desk:
@@ -159,8 +161,9 @@ class Desk:
             problem = "every task whose place is known has skills that fit it"
             raise PlannerError(f"skills: {problem}; give the number of a task to ask for it anyway")
         for name in tasks:
-            task = next(task for task in self.document["tasks"] if task["id"] == name)
-            answer = self._ask(task)
+            number = [task["id"] for task in self.document["tasks"]].index(name)
+            task, before = self.document["tasks"][number], self.document["tasks"][:number]
+            answer = self._ask(task, before)
             if answer.plan is None:
                 what, why = f"skills of {task['title']}", "; ".join(answer.problems[:2])
                 problem = f"the Task Agent's answer is not valid ({why})"
@@ -195,7 +198,13 @@ def open_desk(
     document, known = read_plan(path, vocabulary)
     settings = settings_of(document, known, candidate, device)
     planner = functools.cache(lambda: Planner(settings))
-    return Desk(path, log or log_beside(path), known, lambda task: planner().skills(task), by)
+    return Desk(
+        path,
+        log or log_beside(path),
+        known,
+        lambda task, before: planner().skills(task, before),
+        by,
+    )
 
 
 def read_plan(path: Path, vocabulary: str | None) -> tuple[PlanDocument, Vocabulary]:

@@ -13,7 +13,7 @@ from planner_ft.document.clearance import _walls, way_round
 from planner_ft.document.ontology import named_places
 from planner_ft.document.structures import Structure, fence, structures, way_off
 from planner_ft.document.track import track
-from planner_ft.planning.shapes import Face
+from planner_ft.planning.passes import Face
 from tests.documents import USV, document, step, task
 
 MAST = [250, -80]

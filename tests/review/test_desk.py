@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from planner_ft.vocabulary import Vocabulary
 from tests.review.conftest import answer, go
 
 
-def circling(task: Mapping[str, Any]) -> Answer:
+def circling(task: Mapping[str, Any], before: Sequence[Mapping[str, Any]]) -> Answer:
     """A Task Agent that always goes to two places."""
     return answer({"skill_sequence": go((1, 2), (3, 4))})
 
@@ -89,7 +89,7 @@ def test_skills_are_asked_for_again(desk: Desk) -> None:
 
 
 def test_an_answer_that_is_not_valid_is_not_taken(plan: Path, usv: Vocabulary) -> None:
-    desk = Desk(plan, log_beside(plan), usv, lambda task: answer(None, "no such skill"))
+    desk = Desk(plan, log_beside(plan), usv, lambda task, _before: answer(None, "no such skill"))
     with pytest.raises(
         PlannerError,
         match=r"SearchAndDetect: the Task Agent's answer is not valid \(no such skill\)",
@@ -99,7 +99,9 @@ def test_an_answer_that_is_not_valid_is_not_taken(plan: Path, usv: Vocabulary) -
 
 def test_what_the_vehicle_adds_to_new_skills_is_marked(plan: Path, usv: Vocabulary) -> None:
     mark = {"step": 0, "role": "navigation", "name": "GoToXY", "kind": "vehicle"}
-    desk = Desk(plan, log_beside(plan), usv, lambda task: replace(circling(task), added=(mark,)))
+    desk = Desk(
+        plan, log_beside(plan), usv, lambda task, _before: replace(circling(task), added=(mark,))
+    )
     desk.edit("skills 1")
     assert read_document(plan)["tasks"][0]["added"] == [mark]
 

@@ -17,7 +17,8 @@ from planner_ft.document.warnings.case import Case, Warning, named, warning
 from planner_ft.facts.geographic import read_geographic, without_geographic
 from planner_ft.facts.places import read_positions
 from planner_ft.planning.limits import last_away, without_limits
-from planner_ft.planning.shapes import face_of, goal_of, shape_problem
+from planner_ft.planning.passes import face_of
+from planner_ft.planning.shapes import goal_of, shape_problem
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.plans import is_number
 from planner_ft.vocabulary.replay import START, Condition, stops

@@ -25,7 +25,8 @@ from planner_ft.facts.numbers import read_numbers
 from planner_ft.facts.places import is_course, written_positions
 from planner_ft.facts.units import unknown_at
 from planner_ft.facts.words import edit_distance, missing_words, unknown_words, words
-from planner_ft.planning.shapes import SIZE, SPACING, pass_ends, shape_points
+from planner_ft.planning.passes import pass_ends
+from planner_ft.planning.shapes import SIZE, SPACING, shape_points
 from planner_ft.vocabulary import Entry, Parameter, Vocabulary
 from planner_ft.vocabulary.plans import step_skills
 

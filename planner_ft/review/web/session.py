@@ -218,13 +218,14 @@ class Session:
         """Ask the Task Agent again for a task, as an edit. Raises BusyError, ChangedError."""
         desk = self._desk(revision)
         asked = _task(desk.document, task)
+        before = desk.document["tasks"][: desk.document["tasks"].index(asked)]
         if "waits_for" in asked:
             raise PlannerError(f"task {task}: its place is not known yet; say where it is first")
         if names := needed(asked, self.vocabulary):
             raise PlannerError(f"task {task}: {' and '.join(names)} must be known first; add it")
 
         def work(planner: Planner) -> None:
-            answer = planner.skills(asked)
+            answer = planner.skills(asked, before)
             if answer.plan is None:
                 problem = f"the Task Agent's answer is not valid ({answer.problems[0]})"
                 raise PlannerError(f"task {task}: {problem}; the task keeps the skills that it has")

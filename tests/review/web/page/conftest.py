@@ -166,7 +166,7 @@ class Agents:
         self.answers.get(timeout=PATIENCE)
         return result
 
-    def skills(self, _task: dict[str, Any]) -> Answer:
+    def skills(self, _task: dict[str, Any], _before: list[dict[str, Any]]) -> Answer:
         return answer({"skill_sequence": self.answers.get(timeout=PATIENCE)})
 
 
