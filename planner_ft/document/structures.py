@@ -20,6 +20,7 @@ from planner_ft.document.track import Leg, Point, circle_of, place_of, point_of,
 from planner_ft.document.vehicle import STAND_OFF
 from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.numbers import read_numbers
+from planner_ft.facts.places import read_positions
 from planner_ft.planning.frame import frame_of
 from planner_ft.vocabulary import Entry, Vocabulary
 
@@ -82,6 +83,9 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
     excluded, stated = {vocabulary.home}, dict[Point, list[float]]()
     told = " ".join([document["command"], *(task["task_prompt"] for task in document["tasks"])])
     spoken = named_places(frame_of(document).spoken, vocabulary)
+    # Places of the command beside which no thing is named are the vehicle's own.
+    called = [(at.x, at.y) for _words, at in spoken]
+    bare = {(at.x, at.y) for at in read_positions(frame_of(document).spoken)}.difference(called)
     chart = document.get("structures", {}).items()
     charted = {point_of(at) for name, at in chart if name.casefold() not in told.casefold()}
     for task in document["tasks"]:
@@ -90,7 +94,7 @@ def structures(document: Entry, vocabulary: Vocabulary) -> list[Structure]:
             (words, (at.x, at.y)) for words, at in named_places(task["task_prompt"], vocabulary)
         ]
         if known is not None and known.pattern in FACING:
-            named |= {at: words for words, at in beside if at not in named}
+            named |= {at: words for words, at in beside if at not in named and at not in bare}
         if known is None or place is None:
             continue
         things = [words for words, at in beside if math.dist(at, place) < SAME]

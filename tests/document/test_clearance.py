@@ -508,6 +508,10 @@ def test_a_thing_that_a_task_looks_at_is_a_structure_and_the_place_of_the_vehicl
     }
     far = task("BoatLandingClearanceSweep", {}, [], "Scan the boat landing at [90, 0].")
     assert standoffs(transit(70, 0), far) == {"the boat landing": 10}
+    bare = document([transit(90, 0), far], command="Go to 90,0 and scan the boat landing.")
+    called = document([transit(90, 0), far], command="Scan the boat landing at 90,0.")
+    assert [one.position for one in structures(bare, USV)] == []
+    assert [one.position for one in structures(called, USV)] == [(90, 0)]
     home = task("PerformOrbit", {"center": [0, 0], "radius": 5}, [])
     assert standoffs(home) == {}
     placed = {**document([transit(70, 0)]), "located": {"wreck": [8, 8], "middle": [9, 9]}}

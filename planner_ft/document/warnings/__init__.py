@@ -74,6 +74,7 @@ CHECKS: tuple[Check, ...] = (
         asked.left_out,
         data.data_ruled_out,
         data.data_not_planned,
+        data.prompts_unheard,
     ),
     *(route.performed, places.passed_elsewhere),
     *(places.unmoved, places.round_home, repeats.intervals, repeats.endless, repeats.to_and_fro),

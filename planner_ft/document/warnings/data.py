@@ -1,5 +1,6 @@
 """Data that the command asks for, or rules out, and what the plan gathers."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -7,7 +8,10 @@ from planner_ft.document.language import Clause, Data
 from planner_ft.document.warnings.asked import sends
 from planner_ft.document.warnings.case import Case, Warning, named, quoted, skills_of, warning
 from planner_ft.vocabulary import Entry, Vocabulary
+from planner_ft.vocabulary.definition import MISSIONS
 from planner_ft.vocabulary.essentials import essentials_of
+
+SENTENCE = re.compile(r"(?<=\.)\s+")
 
 
 def asked_skills(case: Case) -> set[str]:
@@ -71,6 +75,22 @@ def data_not_planned(case: Case) -> Iterator[Warning]:
             yield from _with_gaps(asked, clause, own, case)
         elif case.words["everywhere"].search(clause.text):
             yield from _once(asked, clause, own, case.tasks)
+
+
+def prompts_unheard(case: Case) -> Iterator[Warning]:
+    """Data that a task prompt says in the sentence of a skill and none of the task's steps gathers:
+    the Task Agent has left it out, or a task of this kind cannot have it.
+    """
+    sentences = case.vocabulary.beside(MISSIONS).get("demand", {})
+    for task in (one for one in case.tasks if one["skill_sequence"] and not one.get("stale")):
+        own = {skill["name"] for _role, skill in skills_of(task)}
+        said = [one.rstrip(".") for one in SENTENCE.split(task["task_prompt"])[1:]]
+        for skill, sentence in sentences.items():
+            begun = sentence.partition("{")[0].rstrip()
+            words = next((one for one in said if one.startswith(begun)), None)
+            if words and skill not in own:
+                values = {"words": words, "skills": skill}
+                yield warning("data-not-planned", "prompt", task, about=skill, **values)
 
 
 def _all_along(clause: Clause, case: Case) -> bool:

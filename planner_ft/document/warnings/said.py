@@ -150,7 +150,9 @@ def _is_in_plan(number: Number, case: Case) -> bool:
     """
     off = OFF.match(case.text, number.end)
     known = (*case.plan.numbers, *case.plan.limited)
-    return any(near(number.value, one) for one in known) if off else case.plan.says(number.value)
+    if off or (number.value < 0 and number.unit == "m"):
+        return any(near(number.value, one) for one in (known if off else case.plan.anywhere))
+    return case.plan.says(number.value)
 
 
 def _instead(case: Case) -> list[Number]:
@@ -194,7 +196,7 @@ def bare_numbers(case: Case) -> Iterator[Warning]:
         named = _parameters(case.vocabulary).search(before)
         bare = named or SIZES.search(before) or (AXIS.search(before) and not limits_it)
         replacing = case.words["replaced"]
-        instead = clause and replacing.match(clause.text.strip(" ,"))
+        instead = clause and number.value != 1 and replacing.match(clause.text.strip(" ,"))
         last = clause and not case.text[number.end : clause.end].strip(" ,.;:!?")
         behind = ends_with(replacing, before) or number in last_counted
         behind = behind or _shots(number, case) or number.start in behind_no

@@ -94,6 +94,13 @@ def test_what_is_ruled_out_and_gathered_is_named() -> None:
     )
 
 
+def test_a_prompt_with_data_that_its_steps_do_not_gather_is_told() -> None:
+    prompt = "Go to [40, 20]. Log the depth. Look out for boats. Go no faster than 1 m/s."
+    told = warned("Go to 40,20.", "GetSeabedDepth", prompt=prompt)
+    assert len(told) == 1 and '"Look out for boats"' in told[0]
+    assert not warned("Go to 40,20.", "GetSeabedDepth", "DetectObjects", prompt=prompt)
+
+
 def test_a_task_that_waits_counts_by_its_prompt() -> None:
     command = "Go to [40, 20] and log the depth."
     assert warned(command, prompt="Go to [40, 20]. Log the depth.", waits=True) == []

@@ -258,6 +258,8 @@ AWAY = "The vehicle stays at least 70 m from the platform at [260, 80]."
         ("Circle the mast at 60,60 at 20 m. Double that.", [orbit(360)], (), "value-lost"),
         ("Circle the mast at 60,60. Double that to 20 m.", [orbit(360)], (), None),
         ("Go to 80,45. I meant minus 45.", [to(80, 45)], (), "value-lost"),
+        ("Circle 60,60 with a radius of minus 20 m.", [orbit(360)], (), "value-lost"),
+        ("Circle 60,60 with a radius of 20 m. Drop the red one.", [orbit(360)], (), None),
         ("Go to 80,45. I meant minus 45.", [to(80, -45)], (), None),
         ("Go to 80,45, then the other one, minus 30.", [to(80, 45)], (), "value-lost"),
         ("Go to 55,70. Wait, minus seventy, I meant.", [to(55, 70)], (), "value-lost"),
