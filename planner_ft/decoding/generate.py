@@ -141,7 +141,8 @@ def _run(decoder: Decoder, states: dict[int, SequenceState], began: float) -> An
     share, first = 0.0, 0.0
     passes = decoder.start(len(states))
     while states:
-        fed = [state.feed(wide=passes.wide) for state in states.values()]
+        alone = len(states) == 1
+        fed = [state.feed(wide=passes.wide, alone=alone) for state in states.values()]
         wanted = [count for _ids, count in fed]
         logits = passes.run([ids for ids, _count in fed], wanted).float()
         # Reading the tokens waits for the device, so the time below is that of the whole step.

@@ -16,10 +16,14 @@ from planner_ft.vocabulary import Skill, Task, Vocabulary
 from planner_ft.vocabulary.definition import DEFAULT
 from planner_ft.vocabulary.plans import Level
 
-LONGEST_MATCH = 4
-"""Tokens at the end of the answer that are looked up at most. The longest match wins."""
+LONGEST_MATCH, NEARER = 8, 1
+"""Tokens at the end of the answer that are looked up at most, and those by which a match in the
+prompt and the answer may be shorter than one in the base. The longest match wins.
+"""
 LONGEST_DRAFT = 7
 """With the token chosen, eight positions: a pass over eight costs a CPU little more than one."""
+LONGEST_SURE = 28
+"""Behind drafts that were right throughout, up to this."""
 
 Likeness = Callable[[int], Hashable]
 
@@ -56,12 +60,19 @@ class Lookup:
 
     def _likely(self, likes: list[Hashable]) -> int | None:
         """The token that followed the longest end of some tokens."""
+        length, token = self._follower(likes)
+        if self._base is not None and length + NEARER < LONGEST_MATCH:
+            other, likely = self._base._follower(likes)
+            if not length or other > length + NEARER:
+                return likely
+        return token
+
+    def _follower(self, likes: list[Hashable]) -> tuple[int, int | None]:
+        """The longest end of some tokens that the text has, and what followed it."""
         for length in range(min(LONGEST_MATCH, len(likes)), 0, -1):
-            before = tuple(likes[-length:])
-            for known in (self, self._base):
-                if known is not None and before in known._followers:
-                    return known._followers[before]
-        return None
+            if (before := tuple(likes[-length:])) in self._followers:
+                return length, self._followers[before]
+        return 0, None
 
 
 def usual_plans(level: Level, vocabulary: Vocabulary) -> list[str]:

@@ -21,7 +21,7 @@ from torch import Tensor
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.constraints import Mask
 from planner_ft.decoding.constraints.answer import Factory
-from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
+from planner_ft.decoding.lookup import LONGEST_DRAFT, LONGEST_SURE, Lookup
 from planner_ft.support.errors import PlannerError
 from planner_ft.vocabulary.plans import Level
 
@@ -184,12 +184,14 @@ class SequenceState:
         self.diverged: int | None = None
         for token in begun:
             self._add(token)
-        self.pending = [*query.prompt, *begun]
+        self.pending, self.draft, self._reach = [*query.prompt, *begun], list[int](), LONGEST_DRAFT
 
-    def feed(self, *, wide: bool) -> tuple[list[int], int]:
-        """The tokens to feed, and how many logits; no draft where not `wide`."""
+    def feed(self, *, wide: bool, alone: bool = False) -> tuple[list[int], int]:
+        """The tokens to feed, and how many logits; no draft where not `wide`. A row that is `alone`
+        has longer drafts as long as they are right: steps that repeat each other.
+        """
         self.forward_passes += 1
-        self.draft = self._likely() if wide else []
+        self.draft = self._likely(self._reach if alone else LONGEST_DRAFT) if wide else []
         return self.pending + self.draft, 1 + len(self.draft)
 
     def choose(self, best: Sequence[int], logits: Tensor) -> list[int]:
@@ -206,6 +208,8 @@ class SequenceState:
                 self._add(self.limits.end_ids[0])
             if self.finished or decided[-1] != drafted:
                 break
+        right = len(decided) > len(self.draft) >= LONGEST_DRAFT
+        self._reach = min(2 * self._reach, LONGEST_SURE) if right else LONGEST_DRAFT
         self.pending = decided[-1:]
         if not self.finished and self._enough(self.ids):
             self.finished = "stop"
@@ -251,11 +255,11 @@ class SequenceState:
         if self.lookup is not None:
             self.lookup.extend(token)
 
-    def _likely(self) -> list[int]:
-        """Tokens that may follow those that are pending."""
+    def _likely(self, reach: int) -> list[int]:
+        """Tokens that may follow those that are pending: `reach` of them, or all that must."""
         room, draft = self.longest - len(self.ids) - 1, list[int]()
         if self.constraint is not None and self.method.fast_forward:
             draft = self.constraint.expected()[: min(LONGEST_FORCED, room)]
         if self.lookup is not None:
-            draft += self.lookup.propose(min(LONGEST_DRAFT, room) - len(draft), draft)
+            draft += self.lookup.propose(min(reach, room) - len(draft), draft)
         return draft

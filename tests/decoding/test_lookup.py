@@ -6,12 +6,13 @@ import random
 from typing import Any
 
 import pytest
+import torch
 
 from planner_ft.decoding.configurations import Limits
 from planner_ft.decoding.generate import PLAIN, generate
-from planner_ft.decoding.lookup import LONGEST_DRAFT, Lookup
+from planner_ft.decoding.lookup import LONGEST_DRAFT, LONGEST_SURE, Lookup
 from planner_ft.decoding.passes import Decoder, ModelDecoder
-from planner_ft.decoding.sequence import Method, Query
+from planner_ft.decoding.sequence import Method, Query, SequenceState
 
 
 def lookup(prompt: list[int], answer: list[int], **settings: Any) -> Lookup:
@@ -31,6 +32,32 @@ def test_what_followed_the_last_tokens_is_proposed() -> None:
 def test_the_longest_and_then_the_latest_match_wins() -> None:
     assert lookup([1, 2, 3, 0, 7, 2, 4, 0], [1, 2]).propose(1) == [3]
     assert lookup([1, 2, 3, 0, 7, 2, 4, 0], [2]).propose(1) == [4]
+
+
+def test_a_text_counts_for_more_than_its_base() -> None:
+    base = lookup([], [1, 2, 3, 4, 9])
+    for own, found in (([0, 3, 4, 7, 1, 2, 3, 4], 9), ([5, 2, 3, 4, 7, 1, 2, 3, 4], 7)):
+        made = Lookup(base=base)
+        for token in own:
+            made.extend(token)
+        assert made.propose(1) == [found]
+
+
+def test_drafts_of_one_answer_grow_while_they_are_right() -> None:
+    """Tokens 1 to 9 over and over, said by the prompt, until token 10 stands in between."""
+    said = [*range(1, 10)] * 12
+    query, answer = Query("mission", {}, tuple(said)), [*said, 10, *said]
+    logits = torch.eye(12)
+    for alone in (True, False):
+        state, fed, at = SequenceState(query, Method(), Limits((11,), 400), 400), list[int](), 0
+        while at < len(answer):
+            state.feed(wide=True, alone=alone)
+            fed.append(len(state.draft))
+            chosen = [*answer, *[0] * LONGEST_SURE][at : at + len(state.draft) + 1]
+            at += len(state.choose(chosen, logits[chosen]))
+        grown = [LONGEST_DRAFT, 2 * LONGEST_DRAFT, LONGEST_SURE, LONGEST_SURE, LONGEST_SURE]
+        assert fed[:5] == (grown if alone else [LONGEST_DRAFT] * 5)
+        assert fed.count(LONGEST_DRAFT) >= 2
 
 
 def test_words_match_in_another_case_and_after_a_space() -> None:
@@ -92,7 +119,6 @@ def test_drafts_do_not_reach_beyond_the_limit(decoder: Decoder) -> None:
 
 @pytest.mark.parametrize("kind", ["sliding window", "absolute positions"])
 def test_other_kinds_of_models_give_the_same_answers(kind: str) -> None:
-    import torch
     from transformers import GPT2Config, GPT2LMHeadModel, MistralConfig, MistralForCausalLM
 
     torch.manual_seed(0)
