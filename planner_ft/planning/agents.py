@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from planner_ft.decoding.generate import Generation
     from planner_ft.decoding.sequence import Query
 
+TOGETHER = 8
+"""Tasks that a small model plans at a time."""
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""
 
@@ -66,13 +68,17 @@ class Agents:
         query = engine.query(level, record, with_vocabulary=agent.with_vocabulary)
         return self._read(engine, query, engine.answer(query, agent.configuration))
 
-    def ask_all(self, level: Level, records: Sequence[dict[str, Any]]) -> list[Answer]:
-        """The agent's answers to records in one batch: the same as one by one, and sooner."""
+    def ask_each(
+        self, level: Level, records: Sequence[dict[str, Any]]
+    ) -> Iterator[tuple[int, Answer]]:
+        """The agent's answers to records, by index, as they are completed: the same as one by one.
+        A small model answers several at a time, and sooner.
+        """
         engine, agent = self.load(level), self.agents[level]
-        told = agent.with_vocabulary
+        told, size = agent.with_vocabulary, TOGETHER if engine.lean else 1
         queries = [engine.query(level, record, with_vocabulary=told) for record in records]
-        given = dict(engine.answers(queries, agent.configuration, batch_size=len(queries)))
-        return [self._read(engine, query, given[at]) for at, query in enumerate(queries)]
+        for at, made in engine.answers(queries, agent.configuration, batch_size=size):
+            yield at, self._read(engine, queries[at], made)
 
     def _read(self, engine: Engine, query: Query, made: Generation) -> Answer:
         """The plan of an answer; None with the problems unless it is strictly valid."""

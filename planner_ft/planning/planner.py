@@ -143,12 +143,21 @@ class Planner:
             problem = f"{' and '.join(names)} must be known before its skills are planned"
             raise PlannerError(f"{task['title']}: {problem}; give it as a parameter")
         self.agents.load("task")
+        return self._performed(task, self.agents.ask("task", self._record(task)), before)
+
+    def _record(self, task: Mapping[str, Any]) -> dict[str, Any]:
+        """What the Task Agent is asked for a task."""
         filled = with_defaults(task, self.vocabulary)
-        record = {"task": task["title"], "parameters": filled["parameters"]}
         prompt = without_limits(task["task_prompt"], self.vocabulary)
-        answer = self.agents.ask("task", {**record, "prompt": prompt})
+        return {"task": task["title"], "parameters": filled["parameters"], "prompt": prompt}
+
+    def _performed(
+        self, task: Mapping[str, Any], answer: Answer, before: Sequence[Mapping[str, Any]]
+    ) -> Answer:
+        """The Task Agent's answer with what the vehicle adds to it."""
         if answer.plan is None:
             return answer
+        filled = with_defaults(task, self.vocabulary)
         steps, ends = with_pass(
             filled, answer.plan["skill_sequence"], self.vocabulary, gone_to(before, self.vocabulary)
         )
@@ -190,13 +199,17 @@ class Planner:
         on_event(TasksKnown(tuple(planned)))
         told = [one.waits_for is None and not asked(vars(one), self.vocabulary) for one in planned]
         ready = [at for at, known in enumerate(told) if known and "task" in self.agents.agents]
-        for done, at in enumerate(ready):
-            self.agents.load("task")
-            self._progress("Task Agent", done, len(ready))
-            answer = self.skills(vars(planned[at]), plan["tasks"][:at])
+        if not ready:
+            return tuple(planned)
+        self.agents.load("task")
+        self._progress("Task Agent", 0, len(ready))
+        records = [self._record(vars(planned[at])) for at in ready]
+        for done, (place, made) in enumerate(self.agents.ask_each("task", records), start=1):
+            at = ready[place]
+            answer = self._performed(vars(planned[at]), made, plan["tasks"][:at])
             planned[at] = replace(planned[at], answer=answer)
             on_event(SkillsKnown(at + 1, answer))
-            self._progress("Task Agent", done + 1, len(ready))
+            self._progress("Task Agent", done, len(ready))
         return tuple(planned)
 
     def _manifest(self) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import pytest
@@ -50,7 +50,7 @@ class KnownAnswers:
     """
 
     def __init__(self, texts: Mapping[Level, list[str]], generation: Mapping[str, Any]) -> None:
-        self.texts, self.generation = texts, generation
+        self.texts, self.generation, self.lean = texts, generation, dict[str, Any]()
         self.asked: list[tuple[Level, dict[str, Any]]] = []
 
     def query(
@@ -69,6 +69,13 @@ class KnownAnswers:
                 **self.generation,
             }
         )
+
+    def answers(
+        self, queries: list[Query], configuration: object, *, batch_size: int
+    ) -> Iterator[tuple[int, Generation]]:
+        assert batch_size == 1
+        for at, query in enumerate(queries):
+            yield at, self.answer(query, configuration)
 
     def choices(self, _answer: Generation) -> None:
         """No log-probabilities."""

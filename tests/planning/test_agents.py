@@ -198,8 +198,23 @@ def test_records_are_answered_together_as_one_by_one(here: Path) -> None:
     }
     records = [{"prompt": text} for text in ("go home", "hold here for two minutes")]
     alone = [agents.ask("mission", record).text for record in records]
-    assert [answer.text for answer in agents.ask_all("mission", records)] == alone
+    answers = dict(agents.ask_each("mission", records))
+    assert [answers[at].text for at in range(2)] == alone
     assert alone[0] and alone[1]
+
+
+def test_a_small_model_answers_several_tasks_in_the_passes_of_one() -> None:
+    agents = Planner.load().agents
+    agents.load("task")
+    given = [("Transit", {"target_position": [x, 20]}, f"Go to [{x}, 20].") for x in (40, 50, 60)]
+    records = [{"task": task, "parameters": own, "prompt": text} for task, own, text in given]
+    alone = [agents.ask("task", record) for record in records]
+    ends = list(agents.ask_each("task", records))
+    assert sorted(at for at, _answer in ends) == [0, 1, 2]
+    assert [dict(ends)[at].text for at in range(3)] == [answer.text for answer in alone]
+    assert all(answer.plan for answer in alone)
+    most = max(answer.forward_passes for answer in alone)
+    assert max(answer.forward_passes for _at, answer in ends) <= most + 2
 
 
 def test_of_two_candidates_the_first_is_released_before_the_second_is_loaded(
