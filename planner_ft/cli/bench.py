@@ -275,6 +275,8 @@ def run_whole(o: Options, named: dict[str, Any]) -> None:
     from planner_ft.benchmark.field.cases import case_files, demands_file
     from planner_ft.benchmark.field.run import Demands, Field, run_cases
     from planner_ft.benchmark.folder import PLANS
+    from planner_ft.document.losses import lost
+    from planner_ft.planning.planner import Planner
     from planner_ft.planning.settings import PlanSettings
 
     also, flag = ((), "--field") if o.field else (("level", "data"), "--level both")
@@ -284,14 +286,14 @@ def run_whole(o: Options, named: dict[str, Any]) -> None:
     bench: Field | Demands = Field() if o.field else Demands()
     files = case_files(o.cases or ()) if o.field else [o.data or demands_file()]
     how = {"vocabulary": vocabulary.source, **o.take("quantization", "device")}
-    agents = [
-        PlanSettings(candidate, configuration=one or None, **how)
+    planners = [
+        Planner(PlanSettings(candidate, configuration=one or None, **how), lost=lost)
         for candidate in names(o.candidates or "embedded")
         for one in names(o.configurations) or [""]
     ]
     folder = o.out or Path("eval/runs") / bench.kind
     with working(folder, PLANS) as progress:
-        asked = files, folder, vocabulary, agents, _Plan, progress
+        asked = files, folder, vocabulary, planners, _Plan, progress
         table = run_cases(bench, *asked, **o.take("limit", "resume", "overwrite"))
     show_table(table)
     show(f"\n{folder}/: {', '.join(bench.files)}")

@@ -52,6 +52,7 @@ def _plan(o: Options) -> PlanDocument:
     from dataclasses import replace
 
     from planner_ft.document import build
+    from planner_ft.document.losses import lost
     from planner_ft.document.ontology import check
     from planner_ft.document.vehicle import check_area, load_vehicle
     from planner_ft.document.warnings.asked import other_language
@@ -67,7 +68,7 @@ def _plan(o: Options) -> PlanDocument:
     with (
         interruptible() as report,
         patient(report) as progress,
-        Planner(o.into(PlanSettings), progress) as planner,
+        Planner(o.into(PlanSettings), progress, lost) as planner,
     ):
         profile = load_vehicle(o.vehicle, planner.vocabulary)
         profile = replace(profile, area=corners) if corners else profile

@@ -21,6 +21,7 @@ from planner_ft.planning.locations import (
     open_places,
     resolve,
 )
+from planner_ft.planning.parts import joined, parts_of, with_costs
 from planner_ft.planning.passes import gone_to, with_pass
 from planner_ft.planning.result import AgentUse, Answer, Doubt, Planned, PlannedTask, doubts
 from planner_ft.planning.settings import DEFAULT_CANDIDATE, PlanSettings, choose_agents
@@ -30,7 +31,7 @@ from planner_ft.support.files import nearest_folder, writing
 from planner_ft.support.geodesy import Origin
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.terminal import Report, silent
-from planner_ft.vocabulary import load_vocabulary
+from planner_ft.vocabulary import Vocabulary, load_vocabulary
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,10 @@ OnEvent = Callable[[TasksKnown | SkillsKnown], None]
 """Called while a command is planned, as soon as something of the plan is known."""
 
 
+Lost = Callable[[str, Mapping[str, Any], Vocabulary], int]
+"""How much of a command a mission plan has lost (planner_ft.document.losses)."""
+
+
 def unwatched(_event: TasksKnown | SkillsKnown) -> None:
     """Nobody watches."""
 
@@ -62,9 +67,14 @@ class Planner:
     In a `with` block the memory is given back at its end.
     """
 
-    def __init__(self, settings: PlanSettings, progress: Report = silent) -> None:
-        """Checks the settings and loads nothing yet. Raises PlannerError."""
-        self.settings = settings
+    def __init__(
+        self, settings: PlanSettings, progress: Report = silent, lost: Lost | None = None
+    ) -> None:
+        """Checks the settings and loads nothing yet. With `lost`, a long command of which the plan
+        has lost something is planned in parts, and the plan that has lost less is taken. Raises
+        PlannerError.
+        """
+        self.settings, self._lost = settings, lost
         self.vocabulary = load_vocabulary(settings.vocabulary)
         agents = choose_agents(settings, self.vocabulary)
         self.agents = Agents(agents, self.vocabulary, settings.device, progress)
@@ -72,10 +82,15 @@ class Planner:
 
     @classmethod
     def load(
-        cls, candidate: str = DEFAULT_CANDIDATE, *, progress: Report = silent, **settings: Any
+        cls,
+        candidate: str = DEFAULT_CANDIDATE,
+        *,
+        progress: Report = silent,
+        lost: Lost | None = None,
+        **settings: Any,
     ) -> Planner:
         """A planner of PlanSettings with the Mission Agent's base loaded. Raises PlannerError."""
-        planner = cls(PlanSettings(candidate, **settings), progress)
+        planner = cls(PlanSettings(candidate, **settings), progress, lost)
         planner.agents.load("mission")
         return planner
 
@@ -105,8 +120,7 @@ class Planner:
         if mission.plan is not None:
             unsure = doubts(frame.spoken, mission.plan, mission.judged, self.vocabulary)
             told = frame.restored(mission.plan, self.vocabulary)
-            stated = with_limits(told, self.vocabulary, frame.spoken)
-            plan = with_limits(with_return(stated, self.vocabulary), self.vocabulary, frame.spoken)
+            plan = self._limited(told, frame.spoken)
             known, unused = fitting(plan, locations or {}, self.vocabulary)
             mission = replace(mission, plan=plan, notes=(*mission.notes, *unused))
             filled = resolve(plan, known, self.vocabulary)
@@ -181,7 +195,28 @@ class Planner:
             name = self.agents.agents["mission"].candidate.name
             way = "shorten the command, or take another candidate"
             raise PlannerError(f"{name}: {'; '.join(answer.problems)}; {way}")
-        return answer
+        return self._in_parts(command, answer)
+
+    def _in_parts(self, command: str, whole: Answer) -> Answer:
+        """The plan of the command's parts where it has lost less than that of the whole."""
+        parts = parts_of(command) if self._lost else []
+        if self._lost is None or whole.plan is None or len(parts) < 2:
+            return whole
+        lost = self._lost(command, self._limited(whole.plan, command), self.vocabulary)
+        if not lost:
+            return whole
+        made = dict(self.agents.ask_each("mission", [{"prompt": part} for part in parts]))
+        answers = [made[at] for at in range(len(parts))]
+        together = joined(answers) if all(answer.plan for answer in answers) else whole
+        other = self._limited(together.plan or {}, command)
+        if self._lost(command, other, self.vocabulary) < lost:
+            return with_costs(together, [whole])
+        return with_costs(whole, answers)
+
+    def _limited(self, plan: dict[str, Any], spoken: str) -> dict[str, Any]:
+        """The plan with its limits in the task prompts that they hold for."""
+        stated = with_limits(plan, self.vocabulary, spoken)
+        return with_limits(with_return(stated, self.vocabulary), self.vocabulary, spoken)
 
     def _tasks(
         self, plan: dict[str, Any], places: list[OpenPlace], on_event: OnEvent

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from planner_ft.benchmark.definitions import Kind, key_problems
 from planner_ft.benchmark.statistics import Estimate
 from planner_ft.document import build, read_document, write_document
+from planner_ft.document.losses import lost
 from planner_ft.document.vehicle import load_vehicle
 from planner_ft.review import approve, log_beside
 from planner_ft.review.approval import approval_of
@@ -134,7 +135,7 @@ def run_suite(suite: Suite, out: Path, report: Report, *, overwrite: bool = Fals
             from planner_ft.planning.planner import Planner
             from planner_ft.planning.settings import PlanSettings
 
-            return stack.enter_context(Planner(PlanSettings()))
+            return stack.enter_context(Planner(PlanSettings(), lost=lost))
 
         check_writable(out)
         _take(suite, out, overwrite)

@@ -12,7 +12,6 @@ from planner_ft.benchmark.field.cases import Case, Outcome, load_cases, load_dem
 from planner_ft.benchmark.folder import PLANS, RESULTS, SCORES, RecordLog, check_folder, clear
 from planner_ft.benchmark.statistics import Estimate, clustered_rate, wilson
 from planner_ft.planning import Planner
-from planner_ft.planning.settings import PlanSettings
 from planner_ft.support import files
 from planner_ft.support.manifest import build_manifest
 from planner_ft.support.tables import Table, TableRow, markdown_table, row
@@ -187,7 +186,7 @@ def run_cases(
     cases_in: Sequence[Path],
     out: Path,
     vocabulary: Vocabulary,
-    agents: Sequence[PlanSettings],
+    planners: Sequence[Planner],
     new_plan: Callable[[Planner, bool], Plan],
     progress: Report,
     limit: int | None = None,
@@ -195,13 +194,12 @@ def run_cases(
     resume: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Run the cases of files with every pair of agents. Plans are written into `out` as they are
+    """Run the cases of files with every planner. Plans are written into `out` as they are
     made, with `resume` those that are there are not made again; from them the tables and, last,
     results.json. `new_plan` makes what plans a case, for demands with open places taken to be
     somewhere. Returns the table. Raises PlannerError.
     """
     cases = bench.load(cases_in, vocabulary)[:limit]
-    planners = [Planner(settings) for settings in agents]
     check_folder(out, bench.files, resume=resume, overwrite=overwrite)
     if overwrite:
         clear(out, bench.files)

@@ -8,6 +8,7 @@ import threading
 from collections.abc import AsyncIterator, Callable, Mapping
 from typing import Any, Literal
 
+from planner_ft.document.losses import lost
 from planner_ft.planning.planner import Planner
 from planner_ft.planning.settings import Agent, PlanSettings
 from planner_ft.support.errors import PlannerError
@@ -161,7 +162,7 @@ class Planning:
     def _load(self) -> Planner | None:
         """The planner with its base in memory; None, and `why`, when that cannot be."""
         try:
-            planner = Planner(self.settings, self._progress)
+            planner = Planner(self.settings, self._progress, lost)
             self._agents = planner.agents.agents
             planner.agents.load("mission")
             return planner

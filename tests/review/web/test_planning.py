@@ -114,11 +114,9 @@ def test_a_page_watches_the_agents_and_sees_the_plan_that_was_saved_beside_the_f
         {"task": "t4", "skill_sequence": [HOLD]},
     ]
     steps = [data for kind, data in told if kind == "progress" and data["label"] == "Task Agent"]
-    assert [(data["done"], data["total"]) for data in steps] == [
-        (0, 2),
-        (1, 2),
-        (2, 2),
-    ] and steps[0]["what"] == "planning"
+    assert [(data["done"], data["total"]) for data in steps] == [(0, 2), (1, 2), (2, 2)] and steps[
+        0
+    ]["what"] == "planning"
     new = plan.parent / shown["path"]
     assert (
         new != plan
