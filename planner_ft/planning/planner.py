@@ -198,7 +198,9 @@ class Planner:
         return self._in_parts(command, answer)
 
     def _in_parts(self, command: str, whole: Answer) -> Answer:
-        """The plan of the command's parts where it has lost less than that of the whole."""
+        """The plan of the command's parts where it has lost less than that of the whole, and has
+        no more tasks beyond it than what was lost can be: a way and what is done at its end.
+        """
         parts = parts_of(command) if self._lost else []
         if self._lost is None or whole.plan is None or len(parts) < 2:
             return whole
@@ -209,7 +211,9 @@ class Planner:
         answers = [made[at] for at in range(len(parts))]
         together = joined(answers) if all(answer.plan for answer in answers) else whole
         other = self._limited(together.plan or {}, command)
-        if self._lost(command, other, self.vocabulary) < lost:
+        found = lost - self._lost(command, other, self.vocabulary)
+        more = len(other["tasks"]) - len(whole.plan["tasks"])
+        if found > 0 and more <= 2 * found:
             return with_costs(together, [whole])
         return with_costs(whole, answers)
 
