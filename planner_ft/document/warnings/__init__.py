@@ -102,7 +102,13 @@ CHECKS: tuple[Check, ...] = (
     ),
     *(said.devices, directions.laid_otherwise, directions.turned_otherwise),
     *(directions.turned_by_bearing, directions.turned_unsaid),
-    *(places.there_and_not, places.turned_round, places.left_out, places.misnamed),
+    *(
+        places.there_and_not,
+        places.turned_round,
+        places.left_out,
+        places.misnamed,
+        places.round_nothing,
+    ),
     *(
         values.unread,
         values.unsaid,

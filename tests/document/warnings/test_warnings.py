@@ -394,6 +394,24 @@ def test_another_vehicle() -> None:
     assert kinds(plan) == ["missing-return", "not-planned", "skill-value-not-said"]
 
 
+def test_a_round_of_a_bare_place_beside_a_thing_that_is_left_alone_is_told() -> None:
+    lies = "The pontoon lies at 60,40. Go to 20,40 and circle it at 15 m."
+    ring = task("PerformOrbit", {"center": [20, 40], "radius": 15, "arc": 360}, None, "Circle.")
+    right = task("PerformOrbit", {"center": [60, 40], "radius": 15, "arc": 360}, None, "Circle.")
+    for command, done, wanted in (
+        (lies, [ring], True),
+        (lies, [right], False),
+        ("Circle 20,40 at 15 m.", [ring], False),
+        ("Go to the buoy at 60,40. Circle 20,40 at 15 m.", [right, ring], False),
+    ):
+        plan = document(done, command=command)
+        told = [one["text"] for one in plan["warnings"] if "goes round" in one["text"]]
+        assert bool(told) is wanted, command
+    limit = "The vehicle stays at least 20 m from the pontoon at [60, 40]."
+    plan = document([ring], command=lies, constraints=[limit])
+    assert not any("goes round" in one["text"] for one in plan["warnings"])
+
+
 def test_a_thing_that_a_prompt_puts_where_the_command_has_another_is_named() -> None:
     command = "Survey the pier at [40, 10], then film the ramp at [80, 10]."
     survey = task(
