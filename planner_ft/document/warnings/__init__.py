@@ -107,7 +107,7 @@ CHECKS: tuple[Check, ...] = (
         places.turned_round,
         places.left_out,
         places.misnamed,
-        places.round_nothing,
+        picked.round_nothing,
     ),
     *(
         values.unread,

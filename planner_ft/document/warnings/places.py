@@ -241,9 +241,13 @@ def turned_round(case: Case) -> Iterator[Warning]:
 
 
 def left_out(case: Case) -> Iterator[Warning]:
-    """A task at a thing that the command leaves out again: "on second thoughts skip the ramp"."""
-    for clause, name, place in _left_out(case):
-        for task in [one for one in case.tasks if _is_at(one, place, case.vocabulary)][:1]:
+    """A task at a thing, or on one, that the command leaves out again: "on second thoughts skip the
+    ramp".
+    """
+    found = [(clause, name, _at(place, case)) for clause, name, place in _left_out(case)]
+    found += [(clause, name, _on(name, clause, case)) for clause, name in _names_out(case)]
+    for clause, name, tasks in found:
+        for task in tasks[:1]:
             words = quoted(clause.text.strip(" ,;."))
             yield warning("contradiction", "ruled_out", task, about=name, words=words)
 
@@ -252,42 +256,39 @@ def _left_out(case: Case) -> Iterator[tuple[Clause, str, Position]]:
     labels = ((picked.LABEL.search(case.text[: place.start]), place) for place in case.positions)
     things = [(match[1], place) for match, place in labels if match]
     things += named_places(case.text, case.vocabulary)
+    for clause, name in _names_out(case):
+        for words, place in things:
+            if name == ARTICLE.sub("", words).casefold() and place.start < clause.start:
+                yield clause, name, place
+
+
+def _names_out(case: Case) -> Iterator[tuple[Clause, str]]:
+    """What clauses rule out: "skip the ramp", "leave the ramp out"."""
     for clause in (one for one in case.clauses if one.excluded is not None):
         match = case.words["exclusion"].search(clause.text)
         name = ARTICLE.sub("", clause.text[match.end() :].strip(" ,;.")) if match else ""
-        for words, place in things:
-            same = name.casefold() == ARTICLE.sub("", words).casefold()
-            if same and place.start < clause.start:
-                yield clause, name, place
+        if name:
+            yield clause, name.casefold().removesuffix(" out")
+
+
+def _on(name: str, clause: Clause, case: Case) -> list[Entry]:
+    """The tasks that have what was named before a clause as a text: the feature to be filmed."""
+    said = case.text[: clause.start].casefold()
+    texts = ((task, str(text).casefold()) for task in case.tasks for text in _texts(task))
+    return [task for task, text in texts if f"{text} ".startswith(f"{name} ") and name in said]
+
+
+def _texts(task: Entry) -> list[str]:
+    return [value for value in task["parameters"].values() if isinstance(value, str)]
+
+
+def _at(place: Position, case: Case) -> list[Entry]:
+    return [task for task in case.tasks if _is_at(task, place, case.vocabulary)]
 
 
 def _is_at(task: Entry, place: Position, vocabulary: Vocabulary) -> bool:
     at = place_of(task, vocabulary)
     return at is not None and same_place(place, at)
-
-
-def round_nothing(case: Case) -> Iterator[Warning]:
-    """A round of a bare position of the command, where it names a thing elsewhere to which no task
-    goes and which no limit is about: the round may be of that.
-    """
-    named = named_places(case.text, case.vocabulary)
-    places = [place_of(task, case.vocabulary) for task in case.tasks]
-    limited = [str(limit["values"].get("object", "")).casefold() for limit in case.limits]
-    missed = [
-        (words, at)
-        for words, at in named
-        if not any(place and same_place(at, place) for place in places)
-        and not any(words.casefold() in one for one in limited)
-    ]
-    for task, place in zip(case.tasks, places, strict=True) if missed else ():
-        if place is None or case.vocabulary.task[task["title"]].pattern not in ROUND:
-            continue
-        things = [*named, *named_places(task["task_prompt"], case.vocabulary)]
-        said = any(same_place(at, place) for at in case.positions)
-        if said and not any(same_place(at, place) for _words, at in things):
-            words, at = missed[0]
-            values = {"place": shown(place), "words": words, "other": shown((at.x, at.y))}
-            yield warning("contradiction", "round", task, **values)
 
 
 def misnamed(case: Case) -> Iterator[Warning]:

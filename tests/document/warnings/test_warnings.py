@@ -394,6 +394,18 @@ def test_another_vehicle() -> None:
     assert kinds(plan) == ["missing-return", "not-planned", "skill-value-not-said"]
 
 
+def test_a_feature_that_is_left_out_again_is_told() -> None:
+    stare = task("FeatureStare", {"feature_type": "ladder of the pontoon"}, None, "Film it.")
+    for command, wanted in (
+        ("Film the ladder for a minute. Actually, leave the ladder out.", True),
+        ("Film the ladder for a minute, but forget the report.", False),
+        ("Don't film the rail but the ladder.", False),
+    ):
+        plan = document([stare], command=command)
+        told = [one["text"] for one in plan["warnings"] if one["kind"] == "contradiction"]
+        assert any("FeatureStare is in the plan" in text for text in told) is wanted, command
+
+
 def test_a_round_of_a_bare_place_beside_a_thing_that_is_left_alone_is_told() -> None:
     lies = "The pontoon lies at 60,40. Go to 20,40 and circle it at 15 m."
     ring = task("PerformOrbit", {"center": [20, 40], "radius": 15, "arc": 360}, None, "Circle.")
