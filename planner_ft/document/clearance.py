@@ -51,17 +51,20 @@ def cleared(document: Entry, vocabulary: Vocabulary) -> list[dict[str, Any]]:
     ahead = itertools.zip_longest(tasks, tasks[1:], tasks[2:])
     for before, (task, following, last) in zip([None, *tasks], ahead, strict=False):
         steps = task.get("skill_sequence")
-        if steps is None or task.get("stale") or runs_along(task, vocabulary):
+        if steps is None or task.get("stale"):
             pen.draw(task)
             done.append(task)
             continue
         reached = circle_of(following, vocabulary) if following else None
         faces = [face_of(one, vocabulary) if one else None for one in (before, following)]
-        walls = [wall for face in faces if face for wall in _walls(face)]
+        along = runs_along(task, vocabulary)
+        near = [*faces, face_of(task, vocabulary)] if along else faces
+        walls = [wall for face in near if face for wall in _walls(face)]
         circle = reached or circle_of(task, vocabulary)
         clearing = _Steps(task, [*known, *walls], circle, pen, faces[1], berths, beside, allowed)
         clearing.arc = _arc(following, last, vocabulary) if reached else None
-        done.append(clearing.cleared(_onward(following, vocabulary)))
+        onward = _onward(following, vocabulary)
+        done.append(clearing.begun() if along else clearing.cleared(onward))
     return done
 
 
@@ -139,6 +142,21 @@ class _Steps:
         entry = {**self.task, "skill_sequence": self.steps}
         return {**entry, "added": self.marks} if self.marks else entry
 
+    def begun(self) -> dict[str, Any]:
+        """A task along a face: the way to its first waypoint keeps clear, the rest is the task."""
+        self.pen.begin(self.task)
+        gone = False
+        for number, step in enumerate(self.task["skill_sequence"]):
+            own = [mark for mark in self.task.get("added", []) if mark["step"] == number]
+            goal, here = self._goal(step), self.pen.here
+            if here and goal and not gone:
+                for point in way_round(here, goal, self.known, self.allowed, self.beside):
+                    self._add(self._with_goal(step, point), own, KEEPS_CLEAR)
+            gone = gone or goal is not None
+            self._add(step, own, "")
+        entry = {**self.task, "skill_sequence": self.steps}
+        return {**entry, "added": self.marks} if self.marks else entry
+
     def _entered(
         self, steps: list[Step], marks: Marks, onward: Sequence[Point]
     ) -> tuple[list[Step], Marks]:
@@ -189,7 +207,8 @@ class _Steps:
         if goal and math.dist(goal, center) >= radius:
             return step  # small things have a small stand-off
         if self.face and math.dist(self.face.middle, center) <= SAME:
-            return self._with_goal(step, offset(center, self.face.side, radius))
+            away = max(radius, self.face.distance)
+            return self._with_goal(step, offset(center, self.face.side, away))
         if self.arc and here and (start := self._arc_start(here, center, radius)):
             return self._with_goal(step, start)
         away, (x, y) = math.dist(here, center) if here else 0.0, (-1.0, 0.0)

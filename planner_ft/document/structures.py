@@ -199,7 +199,8 @@ def close_legs(
     along = {task["id"] for task in document["tasks"] if runs_along(task, vocabulary)}
     berths = {task["id"]: place for task in document["tasks"] if (place := berth(task, vocabulary))}
     for last, leg in zip([None, *legs], legs, strict=False) if known else ():
-        if leg.kind not in MOVING or leg.task in along or leg.task not in steering:
+        begun = leg.task in along and (last is None or last.task != leg.task)
+        if leg.kind not in MOVING or leg.task not in steering or (leg.task in along and not begun):
             continue
         close = [berths[one.task] for one in (leg, last) if one and one.task in berths]
         for structure in known:
@@ -208,7 +209,7 @@ def close_legs(
             pairs = itertools.pairwise(leg.points)
             nearest = min(way_off(structure.position, *pair) for pair in pairs)
             ends = [point for point in (leg.points[0], leg.points[-1]) if point == vocabulary.home]
-            ends += close
+            ends += [*close, *([leg.points[-1]] if begun else [])]
             if last and last.task in along and structure.blocks(*(leg.points[0],) * 2):
                 continue
             allowed = min([structure.standoff, *(math.dist(structure.position, at) for at in ends)])

@@ -698,3 +698,32 @@ def test_a_small_thing_has_a_small_stand_off() -> None:
         moved = track(plan, USV).legs[0].points[-1]
         assert math.dist(moved, (7, -2)) == pytest.approx(0.5, abs=0.01)
         assert moved == (6.5, -2) or start == 7
+
+
+def along(side: str, y: float) -> dict[str, Any]:
+    given = {"side_id": side, "length": 50, "distance": 18}
+    prompt = f"Run along the {side} side of the platform at [90, 0] for 50 m, 18 m off."
+    return task("ParallelStructurePass", given, [go(65, y), go(115, y)], prompt)
+
+
+def test_a_pass_is_gone_to_at_its_distance_and_the_next_one_round_the_structure() -> None:
+    to = transit(90, 0, "Go to the platform at [90, 0].")
+    plan = document([to, along("north", 18), along("south", -18), transit(0, 0)])
+    assert [90, 18] in waypoints(plan)
+    assert nearest(plan, [90, 0]) >= 17.5
+    added = [mark for mark in plan["tasks"][2]["added"] if mark["kind"] == "clearance"]
+    steps = plan["tasks"][2]["skill_sequence"]
+    assert added and len(steps) == len(added) + 2
+    assert "structure-close" not in kinds(plan)
+    # The pass itself is as it was.
+    assert waypoints({"tasks": [plan["tasks"][1]]}) == [[65, 18], [115, 18]]
+    assert waypoints({"tasks": [plan["tasks"][2]]})[-2:] == [[65, -18], [115, -18]]
+
+
+def test_a_way_to_a_pass_through_a_structure_is_told() -> None:
+    fence = "The vehicle stays inside [0, -20], [200, -20], [200, 20], [0, 20]."
+    given = {"side_id": "west", "length": 20, "distance": 40}
+    prompt = "Run along the west side of the platform at [90, 0] for 20 m, 40 m off."
+    west = task("ParallelStructurePass", given, [go(50, -10), go(50, 10)], prompt)
+    plan = document([transit(150, 0), west], constraints=[fence])
+    assert "structure-close" in kinds(plan)

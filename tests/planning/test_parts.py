@@ -84,16 +84,30 @@ def test_answers_are_joined_with_their_costs_and_what_they_are_sure_of() -> None
     plans = [mission(*FIRST), {**mission(*SECOND), "assumptions": ["Home is [0, 0]."]}]
     sure = Judgement("", {(): 0.9, ("tasks", 1): 0.8, ("tasks", 1, "title"): 0.7})
     given = [Answer("", plan, (), (), 5, 10, 6, 0.5, judged=sure) for plan in plans]
-    one = joined([*given, given[1]])
-    assert one.plan and len(one.plan["tasks"]) == 6
+    one = joined([*given, given[1]], USV)
+    assert one.plan and len(one.plan["tasks"]) == 5  # no way to [30, 40] from there
     assert one.plan["assumptions"] == ["Home is [0, 0]."]
     assert (one.prompt_tokens, one.tokens, one.forward_passes, one.seconds) == (15, 30, 18, 1.5)
     assert one.judged.parts[()] == pytest.approx(0.9**3)
     assert one.judged.parts["tasks", 3, "title"] == 0.7 and ("tasks", 2) not in one.judged.parts
-    unknown = joined([given[0], replace(given[1], judged=Judgement("no calibration"))])
+    unclear = replace(given[1], judged=Judgement("no calibration"))
+    unknown = joined([given[0], unclear], USV)
     assert unknown.judged.reason == "no calibration" and not unknown.judged.parts
 
 
 def test_a_plan_that_has_all_of_a_command_has_lost_nothing() -> None:
     assert lost(LONG, mission(*FIRST, *SECOND), USV) == 0
     assert lost(LONG, mission(*FIRST), USV) > 0
+
+
+def test_parts_lead_nowhere_where_the_vehicle_is() -> None:
+    home = [task("Transit", "Return home to [0, 0].", target_position=[0, 0])]
+    sure = Judgement("", {(): 0.5, ("tasks", 0): 0.8, ("tasks", 0, "title"): 0.7})
+    given = [
+        Answer("", mission(*tasks), (), (), 1, 1, 1, 0.1, judged=sure)
+        for tasks in (home, FIRST, FIRST, [*SECOND, *home], home)
+    ]
+    one = joined(given, USV)
+    places = [task["parameters"].get("target_position") for task in (one.plan or {})["tasks"]]
+    assert places == [[10, 20], None, None, [30, 40], None, [0, 0]]
+    assert [path for path in one.judged.parts if len(path) == 2] == [("tasks", 0), ("tasks", 3)]
