@@ -1,7 +1,8 @@
 """Passes along a face: both ends, where the Task Agent's waypoints are not on them.
 
-A face is on the stated side of its structure, and the pass keeps its distance. Where the structure's
-place is known, the pass has its middle before it; else it begins where the vehicle has gone to.
+A face is on the stated side of its structure, and the pass keeps its distance. Where the place of
+the structure is known, the pass has its middle before it; else it begins where the vehicle has gone
+to.
 """
 
 import math

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planner_ft.document.structures import ROUND
-from planner_ft.document.track import place_of
+from planner_ft.document.track import place_of, shown
 from planner_ft.document.warnings.case import FULL, Case, Warning, quoted, same_place, spot, warning
 from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.places import rows_of
@@ -139,6 +139,28 @@ def repeats(case: Case) -> Iterator[Warning]:
                 yield warning("repeat-lost", "count", **about)
             elif not case.words["each"].search(text) and _is_done_again(count, found, case):
                 yield warning("repeat-lost", "again", **about)
+            elif jump := _jump(near_by[-1] if near_by else (), case):
+                one, other = (shown((at.x, at.y)) for at in jump)
+                yield warning("repeat-lost", "order", place=one, other=other, **about)
+
+
+def _jump(row: Sequence[Position], case: Case) -> tuple[Position, Position] | None:
+    """The first two places of a round that the plan goes to one behind the other, and that are no
+    neighbours on it.
+    """
+    if row and same_place(row[-1], (row[0].x, row[0].y)):
+        row = row[:-1]
+    places = (place_of(task, case.vocabulary) for task in case.tasks)
+    found = [
+        next((number for number, one in enumerate(row) if same_place(one, at)), None)
+        for at in places
+        if at
+    ]
+    on_it = [number for number in found if number is not None]
+    for one, other in itertools.pairwise(on_it):
+        if (other - one) % len(row) not in (0, 1, len(row) - 1):
+            return row[one], row[other]
+    return None
 
 
 def done_again(case: Case) -> Iterator[Warning]:

@@ -394,6 +394,23 @@ def test_another_vehicle() -> None:
     assert kinds(plan) == ["missing-return", "not-planned", "skill-value-not-said"]
 
 
+def test_laps_that_cut_across_their_round_are_told() -> None:
+    corners = [(20, 20), (80, 20), (80, 80), (20, 80)]
+    command = "Two laps of the square 20,20 - 80,20 - 80,80 - 20,80, then home."
+    closed = "Sail 20,20 then 80,20 then 80,80 then 20,80 and back to 20,20, two laps, then home."
+
+    def told(order: list[int], command: str) -> bool:
+        ways = [task("Transit", {"target_position": [*corners[at]]}, None, "Go.") for at in order]
+        home = task("Transit", {"target_position": [0, 0]}, None, "Return home.")
+        plan = document([*ways, home], command=command)
+        return any("no neighbours" in one["text"] for one in plan["warnings"])
+
+    assert not told([0, 1, 2, 3, 0, 1, 2, 3], command)
+    assert not told([0, 3, 2, 1, 0, 3, 2, 1, 0], command)
+    assert not told([0, 1, 2, 3, 0, 1, 2, 3, 0], closed)
+    assert told([0, 1, 2, 3, 0, 2, 1, 3], command)
+
+
 def test_a_feature_that_is_left_out_again_is_told() -> None:
     stare = task("FeatureStare", {"feature_type": "ladder of the pontoon"}, None, "Film it.")
     for command, wanted in (
