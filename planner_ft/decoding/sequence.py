@@ -27,8 +27,10 @@ from planner_ft.vocabulary.plans import Level
 
 RELEASE = 3.0
 """Nats by which the model must prefer its own value to every one with evidence to keep it."""
-LONGEST_RUN = 16
-"""Tokens of two kinds at most in a row that end an enforced text: small models write "ggggg..."."""
+LONGEST_RUN, PERIODS = 16, range(1, 6)
+"""Tokens in a row that end an enforced text if they are of two kinds at most, or the same few over
+and over: small models write "ggggg..." and "the west of the west of the west of".
+"""
 LONGEST_FORCED = 31
 """Tokens that must follow and are fed with the choice before them; only a release drops them."""
 LIKELIEST = 4
@@ -228,8 +230,7 @@ class SequenceState:
             return sampling.draw(self.numbers[len(self.ids)], logits, mask)
         if constraint is None:
             return best
-        latest = {best, *self.ids[-LONGEST_RUN:]}
-        token = constraint.ends_text() if len(latest) <= 2 and len(self.ids) > LONGEST_RUN else None
+        token = constraint.ends_text() if self._loops(best) else None
         if token is None and constraint.allows(best):
             return best
         if token is None:
@@ -242,6 +243,12 @@ class SequenceState:
                 return best
         self.diverged = len(self.ids) if self.diverged is None else self.diverged
         return token
+
+    def _loops(self, token: int) -> bool:
+        """Whether the last tokens and the next one say the same over and over."""
+        last = [*self.ids[-LONGEST_RUN:], token]
+        same = len({*last}) <= 2 or any(last[size:] == last[:-size] for size in PERIODS)
+        return same and len(last) > LONGEST_RUN
 
     def _add(self, token: int) -> None:
         """A token joins the answer."""

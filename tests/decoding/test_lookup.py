@@ -151,3 +151,23 @@ def test_other_kinds_of_models_give_the_same_answers(kind: str) -> None:
     # A window that has moved on cannot be taken back, so nothing is drafted.
     saved = any(answer.forward_passes < len(answer.ids) for answer in drafted)
     assert saved is (kind != "sliding window")
+
+
+@pytest.mark.parametrize(
+    ("ids", "loops"),
+    [
+        ([7] * 16 + [7], True),
+        ([7, 8] * 8 + [7], True),
+        ([1, 2, 3] * 5 + [1, 2], True),
+        ([1, 2, 3, 4, 5] * 3 + [1, 2], True),
+        ([9, 9, *[1, 2, 3] * 5, 1, 2], True),
+        ([1, 2, 3] * 5 + [1, 9], False),
+        ([1, 2, 3, 4, 5, 6] * 3, False),
+        ([7] * 9, False),
+        (list(range(20)), False),
+    ],
+)
+def test_the_same_tokens_over_and_over_are_noticed(ids: list[int], loops: bool) -> None:
+    state = SequenceState(Query("mission", {}, (1,)), Method(), Limits((99,), 400), 400)
+    state.ids = ids[:-1]
+    assert state._loops(ids[-1]) is loops
