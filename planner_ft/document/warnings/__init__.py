@@ -66,7 +66,13 @@ CHECKS: tuple[Check, ...] = (
     *(route.open_places, route.order),
     *(route.boundaries, route.area_and_reach, route.endurance, route.missing_return),
     said.harm,
-    *(asked.other_words, asked.instructions, asked.home_and_not, asked.ruled_out_still),
+    *(
+        asked.other_words,
+        asked.instructions,
+        asked.home_and_not,
+        asked.ruled_out_still,
+        picked.corrected_still,
+    ),
     *(places.taken_back, picked.quoted_places, asked.against_itself, asked.conditions),
     *(
         asked.without_words,
@@ -75,6 +81,7 @@ CHECKS: tuple[Check, ...] = (
         data.data_ruled_out,
         data.data_not_planned,
         data.prompts_unheard,
+        data.not_sent,
     ),
     *(route.performed, places.passed_elsewhere),
     *(places.unmoved, places.round_home, repeats.intervals, repeats.endless, repeats.to_and_fro),

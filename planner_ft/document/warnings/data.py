@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from planner_ft.document.language import Clause, Data
-from planner_ft.document.warnings.asked import sends
+from planner_ft.document.warnings.asked import STEM, sends
 from planner_ft.document.warnings.case import Case, Warning, named, quoted, skills_of, warning
 from planner_ft.vocabulary import Entry, Vocabulary
 from planner_ft.vocabulary.definition import MISSIONS
@@ -91,6 +91,31 @@ def prompts_unheard(case: Case) -> Iterator[Warning]:
             if words and skill not in own:
                 values = {"words": words, "skills": skill}
                 yield warning("data-not-planned", "prompt", task, about=skill, **values)
+
+
+def not_sent(case: Case) -> Iterator[Warning]:
+    """Words for data in an order to send that no list of what is sent has; words for any data
+    ("the readings") may stand for all of it.
+    """
+    lists = [(task, _sent(task, case.vocabulary)) for task in case.tasks]
+    lists = [(task, names) for task, names in lists if names]
+    listed = " ".join([*(one for _task, names in lists for one in names)]).casefold()
+    general = [data.said for data in case.spoken.data if not data.skills]
+    for clause in (one for one in case.typed if lists and not one.corrected):
+        orders = [ask.said.search(clause.text) for ask in case.spoken.asks if ask.sends]
+        behind = min((clause.start + one.end() for one in orders if one), default=clause.end)
+        for start, end in clause.spans(case.spoken.sensors):
+            word = case.command[start:end]
+            alike = start < behind or any(said.fullmatch(word) for said in general)
+            if not alike and word[:STEM].casefold() not in listed:
+                words = {"words": quoted(clause.text.strip(" ,;.")), "name": word}
+                yield warning("data-not-planned", "sent", lists[-1][0], about=word, **words)
+
+
+def _sent(task: Entry, vocabulary: Vocabulary) -> list[str]:
+    """What a task sends, by its list."""
+    name = vocabulary.logic.of(task["title"]).sends
+    return list(task["parameters"].get(name or "", ()))
 
 
 def _all_along(clause: Clause, case: Case) -> bool:

@@ -1,7 +1,8 @@
 """What the command has at one of several places ("circle the second"), and the plan elsewhere or at
-others, too.
+others, too; and what it corrects.
 """
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -20,8 +21,10 @@ from planner_ft.document.warnings.case import (
     warning,
 )
 from planner_ft.document.warnings.data import gathered_by
-from planner_ft.facts import Position
+from planner_ft.document.warnings.said import CORRECTED, NO
+from planner_ft.facts import Position, is_number, near
 from planner_ft.facts.places import rows_of
+from planner_ft.facts.units import named
 from planner_ft.planning.locations import ARTICLE
 from planner_ft.vocabulary import Entry
 
@@ -289,3 +292,33 @@ def round_nothing(case: Case) -> Iterator[Warning]:
             words, at = missed[0]
             values = {"place": shown(place), "words": words, "other": shown((at.x, at.y))}
             yield warning("contradiction", "round", task, **values)
+
+
+def corrected_still(case: Case) -> Iterator[Warning]:
+    """A value of a task that the command corrects at once, and says nowhere else: "25 metres, no,
+    20 metres".
+    """
+    for one, other in itertools.pairwise(case.numbers):
+        between = case.text[one.end : other.start]
+        said = case.words["correction"].search(between) or NO.fullmatch(between)
+        if not said or len(between) > CORRECTED or one.unit is None or one.unit != other.unit:
+            continue
+        alike = (number for number in case.numbers if number.unit in (None, one.unit))
+        again = sum(near(number.value, one.value) for number in alike) > 1
+        if again or near(one.value, other.value):
+            continue
+        for task in case.tasks:
+            values = [*_values(task, one.unit, case)]
+            if any(near(one.value, at) for at in values) and not any(
+                near(other.value, at) for at in values
+            ):
+                words = quoted(case.text[one.start : other.end])
+                yield warning("contradiction", "ruled_out", task, about=words, words=words)
+
+
+def _values(task: Entry, base: str, case: Case) -> Iterator[float]:
+    """The values of a task in a base unit."""
+    for item in case.vocabulary.task[task["title"]].parameters:
+        unit, value = named(item.unit), task["parameters"].get(item.name)
+        if unit and unit.base == base and is_number(value):
+            yield unit.in_base(value)

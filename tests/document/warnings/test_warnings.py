@@ -411,6 +411,33 @@ def test_laps_that_cut_across_their_round_are_told() -> None:
     assert told([0, 1, 2, 3, 0, 2, 1, 3], command)
 
 
+def test_a_corrected_value_that_a_task_has_all_the_same_is_told() -> None:
+    command = "Survey the pile at 60,40 at 25 metres, no, 20 metres. Hold for 25 seconds there."
+
+    def told(command: str, *radii: float) -> bool:
+        rounds = [
+            task("SurveyTarget", {"target_position": [60, 40], "radius": radius}, None, "Survey.")
+            for radius in radii
+        ]
+        plan = document(rounds, command=command)
+        return any("SurveyTarget is in the plan" in one["text"] for one in plan["warnings"])
+
+    assert told(command, 20, 25) and not told(command, 20)
+    assert not told("Survey the pile at 60,40 at 25 metres, the buoy at 20 metres.", 25, 20)
+
+
+def test_data_to_be_sent_that_a_list_lacks_is_told() -> None:
+    def told(command: str, *names: str) -> list[str]:
+        send = task("SmartDataHarvest", {"target_list": [*names]}, None, "Upload.")
+        plan = document([send], command=command)
+        return [one["text"] for one in plan["warnings"] if "sends no" in one["text"]]
+
+    assert "sends no video" in told("Upload the video first.", "stills")[0]
+    assert not told("Upload the video first.", "stills", "video")
+    assert not told("Film it on video and upload the stills.", "stills")
+    assert not told("Upload the data.", "stills")
+
+
 def test_a_feature_that_is_left_out_again_is_told() -> None:
     stare = task("FeatureStare", {"feature_type": "ladder of the pontoon"}, None, "Film it.")
     for command, wanted in (
