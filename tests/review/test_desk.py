@@ -100,7 +100,10 @@ def test_an_answer_that_is_not_valid_is_not_taken(plan: Path, usv: Vocabulary) -
 def test_what_the_vehicle_adds_to_new_skills_is_marked(plan: Path, usv: Vocabulary) -> None:
     mark = {"step": 0, "role": "navigation", "name": "GoToXY", "kind": "vehicle"}
     desk = Desk(
-        plan, log_beside(plan), usv, lambda task, _before: replace(circling(task), added=(mark,))
+        plan,
+        log_beside(plan),
+        usv,
+        lambda task, _before: replace(circling(task, _before), added=(mark,)),
     )
     desk.edit("skills 1")
     assert read_document(plan)["tasks"][0]["added"] == [mark]
