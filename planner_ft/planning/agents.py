@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from planner_ft.decoding.sequence import Query
 
 TOGETHER = 8
-"""Tasks that a small model plans at a time."""
+"""Records that a small model answers at a time: tasks, or parts of a command."""
 CUT_NOTE = "The answer met its limit of tokens"
 """How the note on an answer that was ended at the limit begins."""
 

@@ -209,9 +209,9 @@ class Planner:
             return whole
         made = dict(self.agents.ask_each("mission", [{"prompt": part} for part in parts]))
         answers = [made[at] for at in range(len(parts))]
-        together = (
-            joined(answers, self.vocabulary) if all(answer.plan for answer in answers) else whole
-        )
+        if not all(answer.plan for answer in answers):
+            return with_costs(whole, answers)
+        together = joined(answers, self.vocabulary)
         other = self._limited(together.plan or {}, command)
         found = lost - self._lost(command, other, self.vocabulary)
         more = len(other["tasks"]) - len(whole.plan["tasks"])

@@ -274,21 +274,21 @@ def round_nothing(case: Case) -> Iterator[Warning]:
     """A round of a bare position of the command, where it names a thing elsewhere to which no task
     goes and which no limit is about: the round may be of that.
     """
-    named = named_places(case.text, case.vocabulary)
+    things = named_places(case.text, case.vocabulary)
     places = [place_of(task, case.vocabulary) for task in case.tasks]
     limited = [str(limit["values"].get("object", "")).casefold() for limit in case.limits]
     missed = [
         (words, at)
-        for words, at in named
+        for words, at in things
         if not any(place and same_place(at, place) for place in places)
         and not any(words.casefold() in one for one in limited)
     ]
     for task, place in zip(case.tasks, places, strict=True) if missed else ():
         if place is None or case.vocabulary.task[task["title"]].pattern not in ROUND:
             continue
-        things = [*named, *named_places(task["task_prompt"], case.vocabulary)]
+        called = [*things, *named_places(task["task_prompt"], case.vocabulary)]
         said = any(same_place(at, place) for at in case.positions)
-        if said and not any(same_place(at, place) for _words, at in things):
+        if said and not any(same_place(at, place) for _words, at in called):
             words, at = missed[0]
             values = {"place": shown(place), "words": words, "other": shown((at.x, at.y))}
             yield warning("contradiction", "round", task, **values)

@@ -244,7 +244,10 @@ def left_out(case: Case) -> Iterator[Warning]:
     """A task at a thing, or on one, that the command leaves out again: "on second thoughts skip the
     ramp".
     """
-    found = [(clause, name, _at(place, case)) for clause, name, place in _left_out(case)]
+    found: list[tuple[Clause, str, list[Any]]] = [
+        (clause, name, [one for one in case.tasks if _is_at(one, place, case.vocabulary)])
+        for clause, name, place in _left_out(case)
+    ]
     found += [(clause, name, _on(name, clause, case)) for clause, name in _names_out(case)]
     for clause, name, tasks in found:
         for task in tasks[:1]:
@@ -274,16 +277,13 @@ def _names_out(case: Case) -> Iterator[tuple[Clause, str]]:
 def _on(name: str, clause: Clause, case: Case) -> list[Entry]:
     """The tasks that have what was named before a clause as a text: the feature to be filmed."""
     said = case.text[: clause.start].casefold()
-    texts = ((task, str(text).casefold()) for task in case.tasks for text in _texts(task))
+    texts = (
+        (task, value.casefold())
+        for task in case.tasks
+        for value in task["parameters"].values()
+        if isinstance(value, str)
+    )
     return [task for task, text in texts if f"{text} ".startswith(f"{name} ") and name in said]
-
-
-def _texts(task: Entry) -> list[str]:
-    return [value for value in task["parameters"].values() if isinstance(value, str)]
-
-
-def _at(place: Position, case: Case) -> list[Entry]:
-    return [task for task in case.tasks if _is_at(task, place, case.vocabulary)]
 
 
 def _is_at(task: Entry, place: Position, vocabulary: Vocabulary) -> bool:

@@ -149,10 +149,9 @@ def _is_in_plan(number: Number, case: Case) -> bool:
     sentences keep nobody off.
     """
     off = OFF.match(case.text, number.end)
-    known = (*case.plan.numbers, *case.plan.limited)
-    if off or (number.value < 0 and number.unit == "m"):
-        return any(near(number.value, one) for one in (known if off else case.plan.anywhere))
-    return case.plan.says(number.value)
+    known = (*case.plan.numbers, *case.plan.limited) if off else case.plan.anywhere
+    signed = off or (number.value < 0 and number.unit == "m")
+    return any(near(number.value, one) for one in known) if signed else case.plan.says(number.value)
 
 
 def _instead(case: Case) -> list[Number]:

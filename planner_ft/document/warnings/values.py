@@ -213,9 +213,8 @@ def declined(case: Case) -> Iterator[Warning]:
         no = case.words["declined"].search(line)
         left = [one for one in words(line[no.end() :]) if LONGER.fullmatch(one)] if no else []
         if left and not any(_akin(one, other) for one in left for other in spoken):
-            yield warning(
-                "value-not-said", "declined", about=line.casefold(), words=line.rstrip(".")
-            )
+            told = {"about": line.casefold(), "words": line.rstrip(".")}
+            yield warning("value-not-said", "declined", **told)
 
 
 def _akin(word: str, other: str) -> bool:
